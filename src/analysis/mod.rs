@@ -1,0 +1,209 @@
+//! What does a scheme do at a valence?
+//!
+//! The stages of the pipeline, one a file: [`local`] -> [`blocks`] -> [`cores`] -> [`spectrum`] -> [`masks`] and [`charmap`].
+//! An [`Analyzer`] holds what all valences of a scheme share; [`Analyzer::at`] runs the stages for one.
+
+pub mod blocks;
+pub mod charmap;
+pub mod cores;
+pub mod local;
+pub mod masks;
+pub mod neighbourhood;
+pub mod spectrum;
+
+use crate::mesh::{Lattice, Patch};
+use crate::refine::{Obstacle, PatchRows, Refinement, RegularStencils, lattice_of};
+use crate::scheme::Scheme;
+use blocks::Blocks;
+use charmap::{CharacteristicMap, RegularMasks, Sample, Shape};
+use cores::Cores;
+use local::{LocalMatrix, MAX_VALENCE};
+use masks::Mask;
+use neighbourhood::{Influence, Orbit, closure};
+use num_complex::Complex64;
+use spectrum::{Eigenvalue, Spectrum};
+use std::collections::BTreeSet;
+
+/// What the analyses of a scheme at all valences share.
+pub struct Analyzer<'a> {
+    refinement: Refinement<'a, f64>,
+    lattice: Lattice,
+    stencils: RegularStencils,
+    influence: Influence,
+    regular: Option<RegularMasks>,
+}
+
+/// The eigenvalues that Doo and Sabin's classical test compares, on the smallest invariant neighbourhood.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Classical {
+    /// The largest eigenvalue of frequency 0 after 1.
+    pub cup: Option<Eigenvalue>,
+    /// The largest eigenvalue of frequency 2.
+    pub saddle: Option<Eigenvalue>,
+}
+
+/// The characteristic map's net and what its samples say.
+#[derive(Clone, Debug)]
+pub struct MapReport {
+    /// The control points of sector 0, in order of the orbits.
+    pub net: Vec<Complex64>,
+    /// What the samples say; `None` where the scheme's regular masks are not determined.
+    pub shape: Option<Shape>,
+}
+
+/// Everything found at one valence; numbers are approximate.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    /// The valence n.
+    pub valence: usize,
+    /// The local matrix over the full neighbourhood.
+    pub local: LocalMatrix,
+    /// Its blocks.
+    pub blocks: Blocks,
+    /// The cores of the blocks.
+    pub cores: Cores,
+    /// The eigenvalues.
+    pub spectrum: Spectrum,
+    /// The eigenvalue of frequency 1 that dominates its frequency, when it is real, positive and isolated.
+    pub lambda: Option<Eigenvalue>,
+    /// The limit mask, where 1 is isolated in frequency 0.
+    pub limit_mask: Option<Mask>,
+    /// The tangent masks, cosine and sine form, where lambda is.
+    pub tangent_masks: Option<[Mask; 2]>,
+    /// The characteristic map, where lambda is.
+    pub map: Option<MapReport>,
+    /// The eigenvalues of the classical test.
+    pub classical: Classical,
+}
+
+impl<'a> Analyzer<'a> {
+    /// Prepares the analysis of a scheme.
+    ///
+    /// # Errors
+    /// When a weight has no value at the regular valence, or stencils reach too far.
+    pub fn new(scheme: &'a Scheme) -> Result<Analyzer<'a>, Obstacle> {
+        let refinement = Refinement::new(scheme, None);
+        let lattice = lattice_of(scheme);
+        let stencils = RegularStencils::of(&refinement, lattice)?;
+        let influence = Influence::of(&stencils, lattice)?;
+        let mut analyzer = Analyzer { refinement, lattice, stencils, influence, regular: None };
+        let regular = analyzer.at(lattice.regular_valence())?;
+        if let (Some(limit), Some(tangents)) = (&regular.limit_mask, &regular.tangent_masks) {
+            analyzer.regular = Some(RegularMasks::of(&regular.local, limit, tangents));
+        }
+        Ok(analyzer)
+    }
+
+    /// The scheme that is analysed.
+    pub fn scheme(&self) -> &'a Scheme {
+        self.refinement.scheme()
+    }
+
+    /// The lattice that the scheme lives on.
+    pub fn lattice(&self) -> Lattice {
+        self.lattice
+    }
+
+    fn rows(&self, valence: usize) -> PatchRows<'_, 'a> {
+        PatchRows::new(&self.refinement, &self.stencils, Patch::new(self.lattice, valence))
+    }
+
+    /// The local matrix at a valence.
+    ///
+    /// # Errors
+    /// When the valence is out of range or a weight has no value there.
+    pub fn local_matrix(&self, valence: usize) -> Result<LocalMatrix, Obstacle> {
+        self.local(&self.rows(valence), valence)
+    }
+
+    fn local(&self, rows: &PatchRows, valence: usize) -> Result<LocalMatrix, Obstacle> {
+        if !(3..=MAX_VALENCE).contains(&valence) {
+            return Err(Obstacle::Limit(format!("the valence must be from 3 to {MAX_VALENCE}, not {valence}")));
+        }
+        LocalMatrix::build(rows, &self.influence)
+    }
+
+    /// Runs every stage at a valence.
+    ///
+    /// # Errors
+    /// When the valence is out of range or a weight has no value there.
+    pub fn at(&self, valence: usize) -> Result<Analysis, Obstacle> {
+        let rows = self.rows(valence);
+        let local = self.local(&rows, valence)?;
+        let blocks = Blocks::of(&local);
+        let cores = Cores::of(&blocks);
+        let spectrum = Spectrum::of(&blocks, &cores)?;
+        let one = spectrum.one();
+        let limit = one.and_then(|one| spectrum.left_vector(&blocks, &cores, &one));
+        let limit_mask = limit.and_then(|(left, _)| Mask::limit(&left, &local));
+        let lambda = spectrum.largest_of(1).filter(|e| e.is_isolated() && e.real().is_some_and(|value| value > 0.0));
+        let left = lambda.and_then(|lambda| spectrum.left_vector(&blocks, &cores, &lambda));
+        let tangent_masks = left.and_then(|(left, _)| Mask::tangents(&left, &local));
+        let right = lambda.and_then(|lambda| spectrum.right_vector(&blocks, &cores, &lambda));
+        let lambda_value = lambda.map_or(0.0, |lambda| lambda.value.re);
+        let map = right.and_then(|(right, _)| CharacteristicMap::of(&rows, &local, lambda_value, &right));
+        let map = map.map(|map| MapReport { net: self.net(&map, &local), shape: self.shape(&map, valence) });
+        let classical = classical(&rows, &local, &cores, &spectrum)?;
+        Ok(Analysis { valence, local, blocks, cores, spectrum, lambda, limit_mask, tangent_masks, map, classical })
+    }
+
+    fn net(&self, map: &CharacteristicMap, local: &LocalMatrix) -> Vec<Complex64> {
+        let point = |(i, j): &Orbit| map.control_point(crate::mesh::Label { sector: 0, i: *i, j: *j });
+        local.orbits.iter().filter_map(point).collect()
+    }
+
+    fn shape(&self, map: &CharacteristicMap, valence: usize) -> Option<Shape> {
+        let masks = self.regular.as_ref()?;
+        let scale = CharacteristicMap::least_scale(masks);
+        Shape::of(&map.samples(masks, scale)?, self.lattice, scale, valence)
+    }
+
+    /// The control points of sector 0 up to a ring, and the samples of the ring segment at a scale of at least 8, for
+    /// pictures.
+    ///
+    /// # Errors
+    /// As [`Analyzer::at`].
+    pub fn picture_of_map(&self, analysis: &Analysis, rings: i32) -> Result<Option<MapPicture>, Obstacle> {
+        let rows = self.rows(analysis.valence);
+        let Some(lambda) = analysis.lambda else { return Ok(None) };
+        let right = analysis.spectrum.right_vector(&analysis.blocks, &analysis.cores, &lambda);
+        let map = right.and_then(|(right, _)| CharacteristicMap::of(&rows, &analysis.local, lambda.value.re, &right));
+        let Some(map) = map else { return Ok(None) };
+        let first = i32::from(self.lattice.has_centre());
+        let orbits = (first..=rings).flat_map(|i| (0..=rings).map(move |j| (i, j)));
+        let orbits: Vec<Orbit> = orbits.filter(|(i, j)| self.lattice.ring(*i, *j) <= rings).collect();
+        let point = |(i, j): &Orbit| map.control_point(crate::mesh::Label { sector: 0, i: *i, j: *j });
+        let net = orbits.iter().filter_map(|orbit| Some((*orbit, point(orbit)?))).collect();
+        let samples = self.regular.as_ref().and_then(|masks| {
+            let scale = CharacteristicMap::least_scale(masks).max(8);
+            Some((scale, map.samples(masks, scale)?))
+        });
+        Ok(Some(MapPicture { net, samples }))
+    }
+}
+
+/// What a picture of the characteristic map shows.
+#[derive(Clone, Debug)]
+pub struct MapPicture {
+    /// Control points of sector 0.
+    pub net: Vec<(Orbit, Complex64)>,
+    /// The scale and the samples of the ring segment, where the scheme's regular masks are determined.
+    pub samples: Option<(i32, Vec<Sample>)>,
+}
+
+fn classical(
+    rows: &PatchRows,
+    local: &LocalMatrix,
+    cores: &Cores,
+    spectrum: &Spectrum,
+) -> Result<Classical, Obstacle> {
+    let seed: BTreeSet<Orbit> = if local.centre.is_some() { [(0, 0), (1, 0)].into() } else { [(0, 0)].into() };
+    let smallest = closure(rows, seed)?;
+    let inside = |e: &&Eigenvalue| {
+        let mut orbits = cores.cores[e.core].iter().flat_map(|node| node.orbits());
+        orbits.all(|t| smallest.contains(&local.orbits[t]))
+    };
+    let largest = |frequency: usize| spectrum.after_one().filter(inside).find(|e| e.frequency == frequency).copied();
+    let saddle = if spectrum.valence >= 4 { largest(2) } else { None };
+    Ok(Classical { cup: largest(0), saddle })
+}

@@ -1,0 +1,292 @@
+//! Which eigenvalues has the local matrix, and with which vectors?
+//!
+//! Core by core and frequency by frequency, in `f64`: everything here is approximate. Eigenvalues that floating numbers can't
+//! tell apart form a cluster; its structure (one Jordan block, or several) is not decided here, and no vectors are
+//! computed for it.
+
+use super::blocks::{Blocks, ModeVector, Node};
+use super::cores::Cores;
+use crate::refine::Obstacle;
+use nalgebra::{DMatrix, DVector, Matrix3};
+use num_complex::Complex64;
+
+/// Eigenvalues of different cores nearer than this are called approximately equal: well-conditioned eigenvalues of matrices
+/// with entries of order 1 are right to about 1e-15. A convention.
+pub const NEAR: f64 = 1e-10;
+
+/// An eigenvalue of one block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eigenvalue {
+    /// Its value; the imaginary part is exactly 0 where it is real. Of a cluster within one core, the mean: rounding drives
+    /// equal eigenvalues apart, but moves their mean little.
+    pub value: Complex64,
+    /// Its frequency, 0..floor(n/2): frequencies k and n-k have the same eigenvalues.
+    pub frequency: usize,
+    /// The core that it belongs to.
+    pub core: usize,
+    /// How many eigenvalues of this frequency are approximately equal to it, itself included.
+    pub cluster: usize,
+}
+
+impl Eigenvalue {
+    /// How far the value may be off, by the rule of thumb that clusters are told by: not a bound.
+    pub fn approx_error(&self) -> f64 {
+        cluster_radius(self.cluster)
+    }
+
+    /// Whether nothing else of its frequency is near.
+    pub fn is_isolated(&self) -> bool {
+        self.cluster == 1
+    }
+
+    /// How often it counts in the spectrum of S: once for frequency k and once for n - k.
+    pub fn multiplicity(&self, valence: usize) -> usize {
+        self.cluster * if self.frequency == 0 || 2 * self.frequency == valence { 1 } else { 2 }
+    }
+
+    /// The value, if it is real.
+    pub fn real(&self) -> Option<f64> {
+        (self.value.im == 0.0).then_some(self.value.re)
+    }
+}
+
+/// The spectrum of a local matrix.
+#[derive(Clone, Debug)]
+pub struct Spectrum {
+    /// Every eigenvalue of the blocks 0..floor(n/2), largest modulus first, approximately equal ones in order of frequency.
+    pub eigenvalues: Vec<Eigenvalue>,
+    /// The valence n.
+    pub valence: usize,
+}
+
+impl Spectrum {
+    /// The eigenvalues of all blocks.
+    ///
+    /// # Errors
+    /// When the eigenvalues of a core can't be computed.
+    pub fn of(blocks: &Blocks, cores: &Cores) -> Result<Spectrum, Obstacle> {
+        let valence = blocks.valence();
+        let mut eigenvalues = Vec::with_capacity((valence / 2 + 1) * blocks.orbits.len());
+        for frequency in 0..=valence / 2 {
+            let start = eigenvalues.len();
+            for core in 0..cores.cores.len() {
+                let values = eigenvalues_of(blocks.real_form(frequency, &cores.nodes(core, frequency)))?;
+                eigenvalues.extend(values.into_iter().map(|value| Eigenvalue { value, frequency, core, cluster: 1 }));
+            }
+            count_clusters(&mut eigenvalues[start..], cores);
+        }
+        sort(&mut eigenvalues);
+        Ok(Spectrum { eigenvalues, valence })
+    }
+
+    /// The eigenvalue 1 of the constants: the one of frequency 0 nearest to 1.
+    pub fn one(&self) -> Option<Eigenvalue> {
+        let at = self.position_of_one()?;
+        Some(self.eigenvalues[at])
+    }
+
+    fn position_of_one(&self) -> Option<usize> {
+        let distance = |index: &usize| (self.eigenvalues[*index].value - 1.0).norm();
+        let constant = (0..self.eigenvalues.len()).filter(|index| self.eigenvalues[*index].frequency == 0);
+        constant.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// Every eigenvalue but the 1 of the constants, in order.
+    pub fn after_one(&self) -> impl Iterator<Item = &Eigenvalue> {
+        let one = self.position_of_one();
+        self.eigenvalues.iter().enumerate().filter(move |(index, _)| Some(*index) != one).map(|(_, e)| e)
+    }
+
+    /// The largest eigenvalue after 1.
+    pub fn subdominant(&self) -> Option<Eigenvalue> {
+        self.after_one().next().copied()
+    }
+
+    /// The largest eigenvalue of a frequency (of frequency 0: after 1).
+    pub fn largest_of(&self, frequency: usize) -> Option<Eigenvalue> {
+        self.after_one().find(|e| e.frequency == frequency).copied()
+    }
+
+    /// The eigenvalues after 1 and the subdominant one (with its cluster), in order.
+    pub fn after_subdominant(&self) -> impl Iterator<Item = &Eigenvalue> {
+        let first = self.subdominant();
+        let skipped = move |e: &Eigenvalue| first.is_some_and(|s| s.frequency == e.frequency && near(s.value, e.value));
+        self.after_one().filter(move |e| !skipped(e))
+    }
+
+    /// One eigenvalue for each cluster, in order.
+    pub fn distinct(&self) -> Vec<Eigenvalue> {
+        let mut distinct: Vec<Eigenvalue> = Vec::new();
+        let mut skip: Vec<(usize, Complex64, usize)> = Vec::new();
+        for e in &self.eigenvalues {
+            let known = skip.iter_mut().find(|(k, value, left)| {
+                *k == e.frequency && *left > 0 && (*value - e.value).norm() <= cluster_radius(e.cluster)
+            });
+            match known {
+                Some((_, _, left)) => *left -= 1,
+                None => {
+                    distinct.push(*e);
+                    skip.push((e.frequency, e.value, e.cluster - 1));
+                    skip.retain(|(_, _, left)| *left > 0);
+                }
+            }
+        }
+        distinct
+    }
+
+    /// A right vector: B_k y = lambda y, for an isolated real eigenvalue. The largest entry of the residual, relative to that
+    /// of the vector, comes with it.
+    pub fn right_vector(&self, blocks: &Blocks, cores: &Cores, e: &Eigenvalue) -> Option<(ModeVector, f64)> {
+        let nodes = cores.above(e.core, e.frequency);
+        let form = blocks.real_form(e.frequency, &nodes);
+        let real = null_vector(&form, isolated_real(e)?)?;
+        let residual = residual(&form, e.value.re, &real);
+        Some((blocks.right_from_real(e.frequency, &nodes, &real), residual))
+    }
+
+    /// A left vector: u B_k = lambda u, for an isolated real eigenvalue, with its relative residual.
+    pub fn left_vector(&self, blocks: &Blocks, cores: &Cores, e: &Eigenvalue) -> Option<(ModeVector, f64)> {
+        let nodes = cores.below(e.core, e.frequency);
+        let form = blocks.real_form(e.frequency, &nodes).transpose();
+        let real = null_vector(&form, isolated_real(e)?)?;
+        let residual = residual(&form, e.value.re, &real);
+        Some((blocks.left_from_real(e.frequency, &nodes, &real), residual))
+    }
+
+    /// The largest relative residual of the right and left vectors of isolated real eigenvalues, and how many vectors it was
+    /// taken over.
+    pub fn approx_residual(&self, blocks: &Blocks, cores: &Cores) -> (f64, usize) {
+        let right = self.eigenvalues.iter().filter_map(|e| self.right_vector(blocks, cores, e));
+        let left = self.eigenvalues.iter().filter_map(|e| self.left_vector(blocks, cores, e));
+        right.chain(left).fold((0.0, 0), |(worst, count), (_, residual)| (f64::max(worst, residual), count + 1))
+    }
+}
+
+/// Whether two eigenvalues are approximately equal.
+pub fn near(a: Complex64, b: Complex64) -> bool {
+    (a - b).norm() <= NEAR
+}
+
+fn isolated_real(e: &Eigenvalue) -> Option<f64> {
+    if e.is_isolated() { e.real() } else { None }
+}
+
+/// How far rounding drives apart m equal eigenvalues of one Jordan block: of the order of the m-th root of the precision.
+fn cluster_radius(m: usize) -> f64 {
+    if m == 1 { NEAR } else { (8.0 * libm::pow(f64::EPSILON, 1.0 / m as f64)).max(NEAR) }
+}
+
+/// Counts, for the eigenvalues of one frequency, how many are approximately equal; those of one core take their mean.
+fn count_clusters(eigenvalues: &mut [Eigenvalue], cores: &Cores) {
+    let size = |core: usize| cores.cores[core].iter().map(|node: &Node| node.unknowns()).sum::<usize>();
+    let all: Vec<Eigenvalue> = eigenvalues.to_vec();
+    for e in eigenvalues.iter_mut() {
+        let radius = cluster_radius(size(e.core));
+        let own = all.iter().filter(|other| other.core == e.core && (other.value - e.value).norm() <= radius);
+        let (sum, count) = own.fold((Complex64::ZERO, 0), |(sum, count), other| (sum + other.value, count + 1));
+        let others = all.iter().filter(|other| other.core != e.core && near(other.value, e.value)).count();
+        e.cluster = count + others;
+        if count > 1 {
+            e.value = sum / count as f64;
+        }
+    }
+}
+
+/// By modulus, largest first; moduli that are approximately equal in order of frequency, then of the argument.
+fn sort(eigenvalues: &mut [Eigenvalue]) {
+    eigenvalues.sort_by(|a, b| b.value.norm().total_cmp(&a.value.norm()));
+    let mut start = 0;
+    while start < eigenvalues.len() {
+        let top = eigenvalues[start].value.norm();
+        let length = eigenvalues[start..].iter().take_while(|e| top - e.value.norm() <= NEAR).count();
+        eigenvalues[start..start + length].sort_by(|a, b| {
+            a.frequency
+                .cmp(&b.frequency)
+                .then(b.value.re.total_cmp(&a.value.re))
+                .then(b.value.im.total_cmp(&a.value.im))
+        });
+        start += length;
+    }
+}
+
+/// The eigenvalues of a real matrix.
+fn eigenvalues_of(matrix: DMatrix<f64>) -> Result<Vec<Complex64>, Obstacle> {
+    if matrix.iter().any(|entry| !entry.is_finite()) {
+        return Err(Obstacle::Limit("a block of the local matrix has an entry that is not finite".to_string()));
+    }
+    match matrix.nrows() {
+        0 => Ok(Vec::new()),
+        1 => Ok(vec![Complex64::new(matrix[(0, 0)], 0.0)]),
+        2 => Ok(roots_of_quadratic(matrix[(0, 0)], matrix[(0, 1)], matrix[(1, 0)], matrix[(1, 1)])),
+        3 => {
+            let small = Matrix3::from_iterator(matrix.iter().copied());
+            let schur = small.try_schur(f64::EPSILON, MAX_SWEEPS).ok_or_else(no_convergence)?;
+            Ok(schur.complex_eigenvalues().iter().map(|value| newton_step(&small, *value)).collect())
+        }
+        _ => {
+            let schur = matrix.try_schur(f64::EPSILON, MAX_SWEEPS).ok_or_else(no_convergence)?;
+            Ok(schur.complex_eigenvalues().iter().copied().collect())
+        }
+    }
+}
+
+/// One step of Newton's method on the characteristic polynomial: takes the last digits that the iteration left.
+fn newton_step(a: &Matrix3<f64>, x: Complex64) -> Complex64 {
+    let minor = |i: usize, j: usize| a[(i, i)] * a[(j, j)] - a[(i, j)] * a[(j, i)];
+    let (trace, minors, determinant) = (a.trace(), minor(0, 1) + minor(0, 2) + minor(1, 2), a.determinant());
+    let value = ((x - trace) * x + minors) * x - determinant;
+    let slope = (x * 3.0 - 2.0 * trace) * x + minors;
+    // near a multiple root the step says nothing
+    if slope.norm() > 1e-3 { x - value / slope } else { x }
+}
+
+const MAX_SWEEPS: usize = 10_000;
+
+fn no_convergence() -> Obstacle {
+    Obstacle::Limit(format!("the eigenvalues of a core did not converge in {MAX_SWEEPS} sweeps"))
+}
+
+/// The eigenvalues of [[a, b], [c, d]], without cancellation in the larger one.
+fn roots_of_quadratic(a: f64, b: f64, c: f64, d: f64) -> Vec<Complex64> {
+    let (mean, half) = ((a + d) / 2.0, (a - d) / 2.0);
+    let discriminant = half * half + b * c;
+    if discriminant < 0.0 {
+        let im = (-discriminant).sqrt();
+        return vec![Complex64::new(mean, im), Complex64::new(mean, -im)];
+    }
+    let root = discriminant.sqrt();
+    let larger = if mean >= 0.0 { mean + root } else { mean - root };
+    let smaller = if larger == 0.0 { 0.0 } else { (a * d - b * c) / larger };
+    vec![Complex64::new(larger, 0.0), Complex64::new(smaller, 0.0)]
+}
+
+/// A vector v, its largest entry 1, with A v = lambda v for a simple eigenvalue: the null space of A - lambda by Gaussian
+/// elimination with full pivoting.
+fn null_vector(a: &DMatrix<f64>, lambda: f64) -> Option<Vec<f64>> {
+    let size = a.nrows();
+    if size == 0 {
+        return None;
+    }
+    let lu = (a - DMatrix::identity(size, size) * lambda).full_piv_lu();
+    let u = lu.u();
+    let mut v = DVector::zeros(size);
+    v[size - 1] = 1.0;
+    for row in (0..size - 1).rev() {
+        let sum: f64 = (row + 1..size).map(|column| u[(row, column)] * v[column]).sum();
+        if u[(row, row)] == 0.0 {
+            return None;
+        }
+        v[row] = -sum / u[(row, row)];
+    }
+    lu.q().inv_permute_rows(&mut v);
+    let largest = v.iter().fold(0.0, |top: f64, x| if x.abs() > top.abs() { *x } else { top });
+    Some(v.iter().map(|x| x / largest).collect())
+}
+
+/// max |A v - lambda v| / max |v|
+fn residual(a: &DMatrix<f64>, lambda: f64, v: &[f64]) -> f64 {
+    let size = a.nrows();
+    let row = |r: usize| (0..size).map(|c| a[(r, c)] * v[c]).sum::<f64>() - lambda * v[r];
+    let largest = v.iter().fold(0.0_f64, |top, x| top.max(x.abs()));
+    (0..size).map(|r| row(r).abs()).fold(0.0, f64::max) / largest
+}

@@ -1,0 +1,7 @@
+//! Eigenring
+pub mod analysis;
+pub mod fault;
+pub mod mesh;
+pub mod numbers;
+pub mod refine;
+pub mod scheme;

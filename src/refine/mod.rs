@@ -1,0 +1,292 @@
+//! How is each new point made from old ones?
+//!
+//! The one place where weights meet topology: scheme x mesh -> rows of weights. A row on the canonical patch is a row of
+//! the local subdivision matrix; rows times positions are the refined mesh.
+
+mod regular;
+mod symmetry;
+
+pub use regular::{PatchRows, RegularStencils};
+pub use symmetry::check_symmetry;
+
+use crate::fault::Fault;
+use crate::mesh::{Connectivity, Lattice, Site};
+use crate::numbers::{Number, Trouble};
+use crate::scheme::vocabulary::{Arrival, Move, RuleKind, Walk};
+use crate::scheme::{Place, Rule, RuleBook, Scheme};
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::fmt;
+use std::rc::Rc;
+
+/// A new point as a combination of old ones: in order of the points, none twice, none with weight zero.
+pub type Row<P, W> = Vec<(P, W)>;
+
+/// Why a new point can't be made here.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Obstacle {
+    /// A formula has no value at this valence.
+    Fault(Fault),
+    /// An operation on weights left their world of numbers.
+    Trouble(Trouble),
+    /// The rule reaches over the boundary of the mesh.
+    Boundary(&'static str),
+    /// The scheme, or its boundary file, has no rule for such a place.
+    NoRule(&'static str),
+    /// The request is beyond a stated limit, as said.
+    Limit(String),
+}
+
+impl fmt::Display for Obstacle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Obstacle::Fault(fault) => f.write_str(&fault.message),
+            Obstacle::Trouble(trouble) => write!(f, "{trouble}"),
+            Obstacle::Boundary(rule) => write!(f, "the rule [{rule}] reaches over the boundary of the mesh"),
+            Obstacle::NoRule(rule) => write!(f, "a rule [{rule}] is needed here, and there is none"),
+            Obstacle::Limit(what) => f.write_str(what),
+        }
+    }
+}
+
+impl std::error::Error for Obstacle {}
+
+impl From<Fault> for Obstacle {
+    fn from(fault: Fault) -> Self {
+        Obstacle::Fault(fault)
+    }
+}
+
+impl From<Trouble> for Obstacle {
+    fn from(trouble: Trouble) -> Self {
+        Obstacle::Trouble(trouble)
+    }
+}
+
+/// The regular lattice that a scheme's split lives on.
+pub fn lattice_of(scheme: &Scheme) -> Lattice {
+    match (scheme.is_dual(), scheme.mesh.as_str()) {
+        (true, _) => Lattice::Dual,
+        (false, "triangles") => Lattice::Triangles,
+        (false, _) => Lattice::Quads,
+    }
+}
+
+/// A weight of a rule: the half-edge around its place to start from, the walk, the weight.
+struct Term<'a, W> {
+    start: usize,
+    walk: &'a Walk,
+    weight: W,
+}
+
+/// The terms of a rule at one count.
+type Terms<'a, W> = Rc<Vec<Term<'a, W>>>;
+
+/// A scheme's rules in one world of numbers, ready to be applied to a mesh.
+pub struct Refinement<'a, W> {
+    scheme: &'a Scheme,
+    boundary: Option<&'a RuleBook>,
+    terms: RefCell<HashMap<(RuleKind, usize), Terms<'a, W>>>,
+}
+
+impl<'a, W: Number> Refinement<'a, W> {
+    /// The scheme's rules, with those of a boundary file where there is one.
+    pub fn new(scheme: &'a Scheme, boundary: Option<&'a RuleBook>) -> Self {
+        Refinement { scheme, boundary, terms: RefCell::new(HashMap::new()) }
+    }
+
+    /// The scheme that is refined with.
+    pub fn scheme(&self) -> &'a Scheme {
+        self.scheme
+    }
+
+    /// The row of the point that is born at a site of the patch.
+    ///
+    /// # Errors
+    /// When a weight has no value, or the rule reaches over a boundary.
+    pub fn row_at<M>(&self, mesh: &M, site: Site) -> Result<Row<M::Point, W>, Obstacle>
+    where
+        M: Connectivity<Edge = crate::mesh::PatchEdge>,
+    {
+        match site {
+            Site::Vertex(edge) => self.vertex_row(mesh, edge),
+            Site::Edge(edge) => self.edge_row(mesh, edge),
+            Site::Face(edge) => self.face_row(mesh, edge),
+            Site::Corner(edge) => self.corner_row(mesh, edge),
+        }
+    }
+
+    /// The row of the point that replaces the origin of `edge`.
+    ///
+    /// # Errors
+    /// As [`Refinement::row_at`].
+    pub fn vertex_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
+        match mesh.boundary_at(edge) {
+            None => self.apply(mesh, RuleKind::Vertex, mesh.valence(edge), &mesh.around_vertex(edge)),
+            Some(last) => {
+                // from the first edge of the sector to the last, which has no face to its left
+                let mut spokes = mesh.around_vertex(last);
+                spokes.rotate_left(1);
+                self.apply(mesh, RuleKind::VertexCrease, spokes.len() - 1, &spokes)
+            }
+        }
+    }
+
+    /// The row of a corner of the boundary, at the origin of `edge`.
+    ///
+    /// # Errors
+    /// As [`Refinement::row_at`].
+    pub fn boundary_corner_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
+        self.apply(mesh, RuleKind::VertexCorner, 0, &[edge])
+    }
+
+    /// The row of the new point on an edge. A rule told from an irregular end is applied from each such end, and the results
+    /// are averaged.
+    ///
+    /// # Errors
+    /// As [`Refinement::row_at`].
+    pub fn edge_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
+        let halves = [edge, mesh.twin(edge)];
+        if halves.iter().any(|half| !mesh.has_face(*half)) {
+            return self.apply(mesh, RuleKind::EdgeCrease, 0, &halves);
+        }
+        if self.scheme.book.rules.contains_key(&RuleKind::EdgeFromIrregularEnd) {
+            let regular = self.scheme.regular_valence();
+            let irregular = |half: &&M::Edge| mesh.valence(**half) != regular && mesh.boundary_at(**half).is_none();
+            let ends: Vec<M::Edge> = halves.iter().filter(irregular).copied().collect();
+            if !ends.is_empty() {
+                return self.mean_from_ends(mesh, &ends);
+            }
+        }
+        self.apply(mesh, RuleKind::Edge, 0, &halves)
+    }
+
+    fn mean_from_ends<M: Connectivity>(&self, mesh: &M, ends: &[M::Edge]) -> Result<Row<M::Point, W>, Obstacle> {
+        let share = W::whole(1).over(&W::whole(ends.len() as i64))?;
+        let mut sum = Vec::new();
+        for end in ends {
+            let spokes = mesh.around_vertex(*end);
+            let row = self.apply(mesh, RuleKind::EdgeFromIrregularEnd, spokes.len(), &spokes)?;
+            add_scaled(&mut sum, &row, &share)?;
+        }
+        collected(sum)
+    }
+
+    /// The row of the new point in the face to the left of `edge`.
+    ///
+    /// # Errors
+    /// As [`Refinement::row_at`].
+    pub fn face_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
+        if !mesh.has_face(edge) {
+            return Err(Obstacle::Boundary(RuleKind::Face.name()));
+        }
+        let corners = mesh.around_face(edge);
+        self.apply(mesh, RuleKind::Face, corners.len(), &corners)
+    }
+
+    /// The row of the new point at the corner where `edge` leaves its origin, in the face to its left.
+    ///
+    /// # Errors
+    /// As [`Refinement::row_at`].
+    pub fn corner_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
+        if !mesh.has_face(edge) {
+            return Err(Obstacle::Boundary(RuleKind::Corner.name()));
+        }
+        let corners = mesh.around_face(edge);
+        self.apply(mesh, RuleKind::Corner, corners.len(), &corners)
+    }
+
+    fn apply<M: Connectivity>(
+        &self,
+        mesh: &M,
+        kind: RuleKind,
+        count: usize,
+        starts: &[M::Edge],
+    ) -> Result<Row<M::Point, W>, Obstacle> {
+        let mut sum = Vec::new();
+        for term in self.terms(kind, count)?.iter() {
+            let edge = self.walk(mesh, starts[term.start], &term.walk.moves, kind)?;
+            match term.walk.arrival {
+                Arrival::Origin => sum.push((mesh.origin(edge), term.weight.clone())),
+                Arrival::Target => sum.push((mesh.target(edge), term.weight.clone())),
+                Arrival::NewFace => add_scaled(&mut sum, &self.face_row(mesh, edge)?, &term.weight)?,
+                Arrival::NewEdge => add_scaled(&mut sum, &self.edge_row(mesh, edge)?, &term.weight)?,
+            }
+        }
+        collected(sum)
+    }
+
+    fn rule(&self, kind: RuleKind) -> Result<(&'a RuleBook, &'a Rule), Obstacle> {
+        let book = if kind.is_boundary() { self.boundary } else { Some(&self.scheme.book) };
+        let rule = book.and_then(|book| Some((book, book.rules.get(&kind)?)));
+        rule.ok_or(Obstacle::NoRule(kind.name()))
+    }
+
+    fn terms(&self, kind: RuleKind, count: usize) -> Result<Terms<'a, W>, Obstacle> {
+        if let Some(terms) = self.terms.borrow().get(&(kind, count)) {
+            return Ok(Rc::clone(terms));
+        }
+        let (book, rule) = self.rule(kind)?;
+        let place = Place::<W>::at(kind.variable(), count as i64);
+        let mut terms = Vec::new();
+        for entry in &rule.entries {
+            let walks = &entry.position.walks;
+            let size = crate::scheme::class_size(entry, kind, count as i64);
+            for (index, weight) in book.weights(entry, size, &place)? {
+                terms.push(Term { start: index / walks.len(), walk: &walks[index % walks.len()], weight });
+            }
+        }
+        terms.retain(|term| !term.weight.is_certainly_zero());
+        let terms = Rc::new(terms);
+        self.terms.borrow_mut().insert((kind, count), Rc::clone(&terms));
+        Ok(terms)
+    }
+
+    fn walk<M: Connectivity>(
+        &self,
+        mesh: &M,
+        start: M::Edge,
+        moves: &[Move],
+        kind: RuleKind,
+    ) -> Result<M::Edge, Obstacle> {
+        let inside = |edge| if mesh.has_face(edge) { Ok(edge) } else { Err(Obstacle::Boundary(kind.name())) };
+        let mut at = start;
+        for step in moves {
+            at = match step {
+                Move::Next => mesh.next(inside(at)?),
+                Move::Prev => mesh.prev(inside(at)?),
+                Move::Twin => mesh.twin(at),
+                Move::Turn => mesh.turn(at),
+                Move::On => {
+                    let back = mesh.twin(at);
+                    if mesh.boundary_at(back).is_some() {
+                        return Err(Obstacle::Boundary(kind.name()));
+                    }
+                    (0..self.scheme.regular_valence() / 2).fold(back, |edge, _| mesh.turn(edge))
+                }
+            };
+        }
+        Ok(at)
+    }
+}
+
+fn add_scaled<P: Copy, W: Number>(sum: &mut Vec<(P, W)>, row: &Row<P, W>, factor: &W) -> Result<(), Trouble> {
+    for (point, weight) in row {
+        sum.push((*point, weight.times(factor)?));
+    }
+    Ok(())
+}
+
+/// Weights that fall on one point add up.
+fn collected<P: Copy + Ord, W: Number>(mut sum: Vec<(P, W)>) -> Result<Row<P, W>, Obstacle> {
+    sum.sort_by_key(|(point, _)| *point);
+    let mut row: Row<P, W> = Vec::with_capacity(sum.len());
+    for (point, weight) in sum {
+        match row.last_mut() {
+            Some((last, total)) if *last == point => *total = total.plus(&weight)?,
+            _ => row.push((point, weight)),
+        }
+    }
+    row.retain(|(_, weight)| !weight.is_certainly_zero());
+    Ok(row)
+}

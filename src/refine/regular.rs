@@ -1,0 +1,136 @@
+//! How are points made far from the centre of the canonical patch?
+//!
+//! By the same four stencils everywhere, one for each parity of the label. They are read off the rules once, at a place far
+//! inside a sector, and applied by arithmetic; near the centre the rules themselves are walked.
+
+use super::{Obstacle, Refinement, Row};
+use crate::mesh::{Label, Lattice, Patch};
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::rc::Rc;
+
+/// The place that the stencils are read off, far from every sector's edge; more than twice the longest walk of a rule.
+const FAR: i32 = 64;
+
+/// The regular stencils: for each parity (i mod 2, j mod 2) of a new point's label, the old points that it is made of, as
+/// offsets from (i div 2, j div 2), with their weights.
+#[derive(Clone, Debug)]
+pub struct RegularStencils {
+    by_parity: [Vec<((i32, i32), f64)>; 4],
+    reach: i32,
+}
+
+impl RegularStencils {
+    /// The stencils of a scheme.
+    ///
+    /// # Errors
+    /// When a weight has no value.
+    pub fn of(refinement: &Refinement<f64>, lattice: Lattice) -> Result<Self, Obstacle> {
+        let patch = Patch::new(lattice, lattice.regular_valence());
+        let mut by_parity: [Vec<_>; 4] = Default::default();
+        let mut reach = 0;
+        for (parity, stencil) in by_parity.iter_mut().enumerate() {
+            let (i, j) = (2 * FAR + parity as i32 % 2, 2 * FAR + parity as i32 / 2);
+            for (old, weight) in refinement.row_at(&patch, patch.birth(Label { sector: 0, i, j }))? {
+                let offset = (old.i - FAR, old.j - FAR);
+                reach = reach.max(offset.0.abs()).max(offset.1.abs());
+                stencil.push((offset, weight));
+            }
+        }
+        Ok(RegularStencils { by_parity, reach })
+    }
+
+    /// The stencil of a new point with this label.
+    pub fn at(&self, i: i32, j: i32) -> &[((i32, i32), f64)] {
+        &self.by_parity[(i.rem_euclid(2) + 2 * j.rem_euclid(2)) as usize]
+    }
+
+    /// The largest offset of a stencil.
+    pub fn reach(&self) -> i32 {
+        self.reach
+    }
+
+    /// The distance i + j from which on a new point's stencil keeps clear of the centre.
+    pub fn clear_of_centre(&self) -> i32 {
+        4 * (self.reach + 1)
+    }
+}
+
+/// The rows of one patch, walked near the centre and by stencils elsewhere.
+pub struct PatchRows<'r, 's> {
+    /// The patch that the rows are on.
+    pub patch: Patch,
+    refinement: &'r Refinement<'s, f64>,
+    stencils: &'r RegularStencils,
+    walked: RefCell<HashMap<Label, Rc<Row<Label, f64>>>>,
+}
+
+impl<'r, 's> PatchRows<'r, 's> {
+    /// The rows on a patch.
+    pub fn new(refinement: &'r Refinement<'s, f64>, stencils: &'r RegularStencils, patch: Patch) -> Self {
+        PatchRows { patch, refinement, stencils, walked: RefCell::new(HashMap::new()) }
+    }
+
+    /// Calls `visit` with each old point that the new point `label` is made of, and its weight.
+    ///
+    /// # Errors
+    /// When a weight has no value.
+    pub fn visit(&self, label: Label, mut visit: impl FnMut(Label, f64)) -> Result<(), Obstacle> {
+        if label.i + label.j >= self.stencils.clear_of_centre() {
+            let (i, j) = (label.i.div_euclid(2), label.j.div_euclid(2));
+            for ((di, dj), weight) in self.stencils.at(label.i, label.j) {
+                visit(self.patch.point(label.sector, i + di, j + dj), *weight);
+            }
+            return Ok(());
+        }
+        for (old, weight) in self.walked_row(label)?.iter() {
+            visit(*old, *weight);
+        }
+        Ok(())
+    }
+
+    /// The row of a new point, by walking the rules.
+    ///
+    /// # Errors
+    /// When a weight has no value.
+    pub fn walked_row(&self, label: Label) -> Result<Rc<Row<Label, f64>>, Obstacle> {
+        if let Some(row) = self.walked.borrow().get(&label) {
+            return Ok(Rc::clone(row));
+        }
+        let row = Rc::new(self.refinement.row_at(&self.patch, self.patch.birth(label))?);
+        self.walked.borrow_mut().insert(label, Rc::clone(&row));
+        Ok(row)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::refine::lattice_of;
+    use crate::scheme::catalogue;
+
+    #[test]
+    fn far_rows_by_stencil_are_the_rows_that_walking_gives() {
+        for listed in catalogue::SCHEMES {
+            let scheme = catalogue::open(listed.id).unwrap().unwrap();
+            let (refinement, lattice) = (Refinement::new(&scheme, None), lattice_of(&scheme));
+            let stencils = RegularStencils::of(&refinement, lattice).unwrap();
+            let rows = PatchRows::new(&refinement, &stencils, Patch::new(lattice, 7));
+            let clear = stencils.clear_of_centre();
+            for (i, j) in (0..2 * clear).flat_map(|i| (0..2 * clear).map(move |j| (i, j))) {
+                if i + j < clear || (lattice.has_centre() && i == 0) {
+                    continue;
+                }
+                let label = Label { sector: 2, i, j };
+                let mut by_stencil = Vec::new();
+                rows.visit(label, |old, weight| by_stencil.push((old, weight))).unwrap();
+                by_stencil.sort_by_key(|(old, _)| *old);
+                let walked = rows.walked_row(label).unwrap();
+                assert_eq!(by_stencil.len(), walked.len(), "{} {label:?}", listed.id);
+                for ((a, w), (b, v)) in by_stencil.iter().zip(walked.iter()) {
+                    assert!(a == b && (w - v).abs() < 1e-15, "{} {label:?}", listed.id);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Which schemes come with Eigenring?
+//!
+//! Files under `schemes/`, in the format that users write, embedded into the program and read through the same door.
+
+use super::{RuleBook, Scheme};
+use crate::fault::Faults;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+/// A scheme file of the catalogue.
+#[derive(Clone, Copy, Debug)]
+pub struct Listed {
+    /// Its name on the command line.
+    pub id: &'static str,
+    /// Its text.
+    pub text: &'static str,
+}
+
+macro_rules! listed {
+    ($($id:literal => $path:literal),* $(,)?) => {
+        [$(Listed { id: $id, text: include_str!(concat!("../../schemes/", $path)) }),*]
+    };
+}
+
+/// Every scheme of the catalogue.
+pub const SCHEMES: [Listed; 6] = listed! {
+    "loop" => "triangle/loop.toml",
+    "loop-warren" => "triangle/loop-warren.toml",
+    "modified-butterfly" => "triangle/modified-butterfly.toml",
+    "catmull-clark" => "quad/catmull-clark.toml",
+    "doo-sabin" => "quad/doo-sabin.toml",
+    "catmull-clark-biquadratic" => "quad/catmull-clark-biquadratic.toml",
+};
+
+/// Every boundary file of the catalogue.
+pub const BOUNDARIES: [Listed; 1] = listed! { "cubic" => "boundary/cubic.toml" };
+
+/// The file of a scheme of the catalogue.
+pub fn scheme(id: &str) -> Option<Listed> {
+    SCHEMES.into_iter().find(|listed| listed.id == id)
+}
+
+/// The scheme of a catalogue file.
+///
+/// # Errors
+/// The file's faults; `None` when the catalogue has no such name.
+pub fn open(id: &str) -> Option<Result<Scheme, Faults>> {
+    scheme(id).map(|listed| Scheme::parse(listed.id, &format!("{id}.toml"), listed.text))
+}
+
+/// The rules of a boundary file of the catalogue.
+///
+/// # Errors
+/// The file's faults; `None` when the catalogue has no such name.
+pub fn boundary(id: &str, mesh: &str) -> Option<Result<RuleBook, Faults>> {
+    let listed = BOUNDARIES.into_iter().find(|listed| listed.id == id)?;
+    Some(RuleBook::parse_boundary(&format!("{id}.toml"), listed.text, mesh))
+}
+
+/// A work that scheme files and verdicts refer to.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Source {
+    /// Its authors.
+    pub author: String,
+    /// Its title.
+    pub title: String,
+    /// Journal and volume, proceedings or publisher.
+    #[serde(rename = "where")]
+    pub place: String,
+    /// Its year.
+    pub year: u16,
+}
+
+impl Source {
+    /// Authors, title, place and year in one line.
+    pub fn citation(&self) -> String {
+        format!("{}. {}. {}, {}.", self.author, self.title, self.place, self.year)
+    }
+}
+
+/// The bibliography, by key.
+pub fn sources() -> &'static BTreeMap<String, Source> {
+    static SOURCES: OnceLock<BTreeMap<String, Source>> = OnceLock::new();
+    SOURCES.get_or_init(|| toml::from_str(include_str!("../../schemes/sources.toml")).unwrap_or_default())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_file_of_the_catalogue_is_read_and_cites_known_sources() {
+        assert!(sources().len() >= 10);
+        for listed in SCHEMES {
+            let scheme = open(listed.id).unwrap().unwrap_or_else(|faults| panic!("{faults}"));
+            let claimed = scheme.claims.iter().flat_map(|claim| &claim.sources);
+            for source in scheme.book.sources.iter().chain(claimed) {
+                assert!(sources().contains_key(source), "{}: {source}", listed.id);
+            }
+            assert!(!scheme.claims.is_empty(), "{} claims nothing", listed.id);
+        }
+        for listed in BOUNDARIES {
+            for mesh in ["triangles", "quads", "polygons"] {
+                boundary(listed.id, mesh).unwrap().unwrap_or_else(|faults| panic!("{faults}"));
+            }
+        }
+    }
+}

@@ -1,0 +1,310 @@
+//! Are the weights of a scheme sound: do they sum to 1, are its cases disjoint and covering, do its formulas have values?
+//!
+//! That the weights of a rule sum to 1 is shown as an identity in n where the formula allows ([`Laurent`]); else the sum is
+//! compared with 1 in `f64`, at the valences asked for.
+
+use super::evaluate::Place;
+use super::formula::Condition;
+use super::vocabulary::RuleKind;
+use super::{Cases, Entry, Parameter, Rule, RuleBook, Scheme, Weights};
+use crate::fault::{Fault, Faults};
+use crate::numbers::{Laurent, Number, RingSize};
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+/// How far an approximate sum may be from 1, relative to the sum of the weights' moduli.
+pub const SUM_TOLERANCE: f64 = 1e-12;
+
+/// The largest count at which cases are tried beyond those asked for, when conditions are not comparisons of n with numbers.
+const TRIED_UP_TO: i64 = 64;
+
+/// What is known of the sum of a rule's weights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RuleSum {
+    /// The rule.
+    pub kind: RuleKind,
+    /// Whether the sum is shown to be 1 for every valence.
+    pub identity: bool,
+    /// The largest distance from 1 seen at the valences asked for, approximately.
+    pub approx_deviation: f64,
+}
+
+impl Scheme {
+    /// Checks the scheme at the valences asked for.
+    ///
+    /// # Errors
+    /// Every fault found: sums other than 1, cases that overlap or leave a valence out, parameters out of range, formulas
+    /// without a value.
+    pub fn check(&self, valences: &[usize]) -> Result<Vec<RuleSum>, Faults> {
+        self.book.check(valences, self.regular_valence())
+    }
+}
+
+impl RuleBook {
+    /// Checks the rules at the counts asked for: valences, or numbers of faces at a boundary.
+    ///
+    /// # Errors
+    /// As [`Scheme::check`].
+    pub fn check(&self, counts: &[usize], regular: usize) -> Result<Vec<RuleSum>, Faults> {
+        let mut faults: Vec<Fault> = self.parameters.iter().filter_map(|p| self.check_parameter(p).err()).collect();
+        let mut sums = Vec::new();
+        if faults.is_empty() {
+            for rule in self.rules.values() {
+                let cases = self.check_cases(rule, counts, regular);
+                let broken = !cases.is_empty();
+                faults.extend(cases);
+                if !broken {
+                    match self.check_sum(rule, counts, regular) {
+                        Ok(sum) => sums.push(sum),
+                        Err(fault) => faults.push(fault),
+                    }
+                }
+            }
+        }
+        let mut seen = BTreeSet::new();
+        faults.retain(|fault| seen.insert((fault.span.clone().map(|s| (s.start, s.end)), fault.message.clone())));
+        if faults.is_empty() { Ok(sums) } else { Err(self.faults(faults)) }
+    }
+
+    fn check_parameter(&self, parameter: &Parameter) -> Result<(), Fault> {
+        let nowhere = Place::<f64>::at(None, 0);
+        let value = self.evaluate(&parameter.value, &nowhere)?;
+        let span = || parameter.value.span.clone();
+        if parameter.integer && value.fract() != 0.0 {
+            return Err(Fault::at(span(), format!("`{}` must be a whole number, not {value}", parameter.name), ""));
+        }
+        let Some((low, high)) = &parameter.range else { return Ok(()) };
+        let (least, greatest) = (self.evaluate(low, &nowhere)?, self.evaluate(high, &nowhere)?);
+        if value < least || value > greatest {
+            let (low, high) = (low.formula.text().trim(), high.formula.text().trim());
+            let message = format!("`{}` = {} is outside its range", parameter.name, parameter.value.formula.text());
+            return Err(Fault::at(span(), message, format!("the range is {low} to {high}")));
+        }
+        Ok(())
+    }
+
+    /// The conditions that decide a rule's weights, through names as well, each list with its place.
+    fn case_lists<'a>(&'a self, rule: &'a Rule) -> Vec<Vec<(&'a Condition, &'a Range<usize>)>> {
+        fn list<T>(cases: &Cases<T>) -> Vec<(&Condition, &Range<usize>)> {
+            match cases {
+                Cases::Always(_) => Vec::new(),
+                Cases::When(cases) => cases.iter().map(|(condition, span, _)| (condition, span)).collect(),
+            }
+        }
+        let mut names: BTreeSet<&str> = BTreeSet::new();
+        for entry in &rule.entries {
+            names.extend(entry_formulas(entry).flat_map(|placed| placed.formula.names()).map(|(name, _)| name));
+        }
+        for _ in 0..self.lets.len() {
+            for own in self.lets.iter().filter(|own| names.contains(own.name.as_str())).collect::<Vec<_>>() {
+                names.extend(own.value.values().iter().flat_map(|placed| placed.formula.names()).map(|(name, _)| name));
+            }
+        }
+        let entries = rule.entries.iter().map(|entry| list(&entry.weights));
+        let lets = self.lets.iter().filter(|own| names.contains(own.name.as_str())).map(|own| list(&own.value));
+        entries.chain(lets).filter(|list| !list.is_empty()).collect()
+    }
+
+    /// The count from which on none of the rule's conditions changes, if each compares n with a number.
+    fn settled_from(&self, rule: &Rule) -> Option<i64> {
+        let lists = self.case_lists(rule);
+        lists.iter().flatten().map(|(condition, _)| condition.settled_from()).try_fold(0, |a, b| Some(a.max(b?)))
+    }
+
+    /// Exactly one case holds at every count that the rule is applied at.
+    fn check_cases(&self, rule: &Rule, counts: &[usize], regular: usize) -> Vec<Fault> {
+        let lists = self.case_lists(rule);
+        if lists.is_empty() {
+            return Vec::new();
+        }
+        let Some(variable) = rule.kind.variable() else {
+            let span = lists[0][0].1.clone();
+            let message = format!("[{}] is told from no vertex, so it can't have cases in n", rule.kind.name());
+            return vec![Fault::at(span, message, "a case")];
+        };
+        let last = self.settled_from(rule).map_or(TRIED_UP_TO, |settled| settled.min(1000));
+        let mut tried: BTreeSet<i64> = (least_count(rule.kind)..=last.max(least_count(rule.kind))).collect();
+        tried.extend(counts.iter().map(|count| *count as i64));
+        if rule.kind == RuleKind::EdgeFromIrregularEnd {
+            tried.remove(&(regular as i64));
+        }
+        lists.iter().flat_map(|list| self.check_case_list(list, variable, &tried)).collect()
+    }
+
+    fn check_case_list(
+        &self,
+        list: &[(&Condition, &Range<usize>)],
+        variable: &'static str,
+        tried: &BTreeSet<i64>,
+    ) -> Option<Fault> {
+        for count in tried {
+            let mut holding = Vec::new();
+            for (condition, span) in list {
+                match self.holds(condition, span, Some(variable), *count) {
+                    Ok(true) => holding.push((condition, span)),
+                    Ok(false) => {}
+                    Err(fault) => return Some(fault),
+                }
+            }
+            let at = format!("{variable} = {count}");
+            match holding.as_slice() {
+                [_] => {}
+                [] => {
+                    let fault = Fault::at(list[0].1.clone(), format!("no case holds at {at}"), "the first of the cases");
+                    return Some(fault.hint(format!("add a case that holds at {at}")));
+                }
+                [(first, _), (_, span), ..] => {
+                    let message = format!("two cases hold at {at}");
+                    return Some(Fault::at((**span).clone(), message, format!("so does `{}`", first.text())));
+                }
+            }
+        }
+        None
+    }
+
+    fn check_sum(&self, rule: &Rule, counts: &[usize], regular: usize) -> Result<RuleSum, Fault> {
+        let identity = self.sums_to_one_for_every_n(rule, regular) == Some(true);
+        let counts: Vec<i64> = match rule.kind.variable() {
+            None => vec![0],
+            Some(_) => counts.iter().map(|count| *count as i64).collect(),
+        };
+        let mut worst: f64 = 0.0;
+        for count in counts {
+            let skipped = rule.kind == RuleKind::EdgeFromIrregularEnd && count == regular as i64;
+            if count < least_count(rule.kind) || skipped {
+                continue;
+            }
+            let (sum, moduli) = self.approx_sum(rule, count)?;
+            worst = worst.max((sum - 1.0).abs());
+            if !identity && (sum - 1.0).abs() > SUM_TOLERANCE * moduli.max(1.0) {
+                return Err(self.wrong_sum(rule, count, sum));
+            }
+        }
+        Ok(RuleSum { kind: rule.kind, identity, approx_deviation: worst })
+    }
+
+    fn wrong_sum(&self, rule: &Rule, count: i64, sum: f64) -> Fault {
+        let at = rule.kind.variable().map_or(String::new(), |name| format!(" at {name} = {count}"));
+        let message = format!("the weights of [{}] sum to {sum}{at}, not to 1", rule.kind.name());
+        let terms: Vec<String> = rule.entries.iter().map(|entry| points_in_words(entry, rule.kind)).collect();
+        let fault = Fault::at(rule.span.clone(), message, "this rule");
+        fault.hint(format!("a weight is that of each point of its name: {}", terms.join(", ")))
+    }
+
+    fn approx_sum(&self, rule: &Rule, count: i64) -> Result<(f64, f64), Fault> {
+        let place = Place::<f64>::at(rule.kind.variable(), count);
+        let (mut sum, mut moduli) = (0.0, 0.0);
+        for entry in &rule.entries {
+            for (_, weight) in self.weights(entry, class_size(entry, rule.kind, count), &place)? {
+                sum += weight;
+                moduli += weight.abs();
+            }
+        }
+        Ok((sum, moduli))
+    }
+
+    /// Whether the sum is 1 for every n from 3 on, as an identity; `None` where that can't be shown this way.
+    fn sums_to_one_for_every_n(&self, rule: &Rule, regular: usize) -> Option<bool> {
+        let least = least_count(rule.kind);
+        if rule.kind.variable().is_none() {
+            return Some(self.exact_sum(rule, RingSize::Exactly(0))? == Laurent::whole(1));
+        }
+        let settled = self.settled_from(rule)?.max(least);
+        let told = |n: &i64| !(rule.kind == RuleKind::EdgeFromIrregularEnd && *n == regular as i64);
+        // waves of frequency p alias at n <= p: try the tail from a little later on, and those n one by one
+        let tail = (settled..settled + 8).find(|n| self.exact_sum(rule, RingSize::From(*n)) == Some(Laurent::whole(1)))?;
+        let one = |n: i64| self.exact_sum(rule, RingSize::Exactly(n)) == Some(Laurent::whole(1));
+        Some((least..tail).filter(told).all(one))
+    }
+
+    fn exact_sum(&self, rule: &Rule, size: RingSize) -> Option<Laurent> {
+        let (count, value) = match size {
+            RingSize::From(n) => (n, Laurent::atom(rule.kind.variable()?)),
+            RingSize::Exactly(n) => (n, Laurent::whole(n)),
+        };
+        let place = Place { variable: rule.kind.variable(), count, value, index: Laurent::whole(0) };
+        let sums = rule.entries.iter().map(|entry| self.exact_entry_sum(entry, rule.kind, &place, size));
+        sums.into_iter().try_fold(Laurent::whole(0), |sum, term| sum.plus(&term?).ok())
+    }
+
+    fn exact_entry_sum(
+        &self,
+        entry: &Entry,
+        kind: RuleKind,
+        place: &Place<Laurent>,
+        size: RingSize,
+    ) -> Option<Laurent> {
+        let whole_ring = entry.picks.is_none() && entry.position.walks.len() == 1 && !entry.position.once;
+        let around = matches!(kind.variable(), Some("n"));
+        match self.select(&entry.weights, place).ok()? {
+            Weights::Each(placed) if whole_ring && around => {
+                let at = Place { index: Laurent::atom("j"), ..place.clone() };
+                self.evaluate(placed, &at).ok()?.sum_over_ring(size)
+            }
+            Weights::List(..) if matches!(size, RingSize::From(_)) && entry.picks.is_none() => None,
+            _ => {
+                let free = matches!(size, RingSize::From(_)) && around;
+                let points = class_size(entry, kind, place.count);
+                if free && entry.picks.is_none() && !entry.position.once {
+                    return None;
+                }
+                let weights = self.weights(entry, points, place).ok()?;
+                weights.iter().try_fold(Laurent::whole(0), |sum, (_, weight)| sum.plus(weight)).ok()
+            }
+        }
+    }
+}
+
+/// The least count that a rule is applied at.
+fn least_count(kind: RuleKind) -> i64 {
+    if kind == RuleKind::VertexCrease { 1 } else { 3 }
+}
+
+/// How many points a class has where the rule's count is `count`.
+pub(crate) fn class_size(entry: &Entry, kind: RuleKind, count: i64) -> usize {
+    let starts = match kind {
+        _ if entry.position.once => 1,
+        RuleKind::Edge | RuleKind::EdgeCrease => 2,
+        RuleKind::VertexCrease => count + 1,
+        RuleKind::VertexCorner => 1,
+        _ => count,
+    };
+    starts.max(0) as usize * entry.position.walks.len()
+}
+
+fn entry_formulas(entry: &Entry) -> impl Iterator<Item = &super::Placed> {
+    entry.weights.values().into_iter().flat_map(|weights| match weights {
+        Weights::Each(placed) => vec![placed],
+        Weights::List(list, _) => list.iter().collect(),
+    })
+}
+
+fn points_in_words(entry: &Entry, kind: RuleKind) -> String {
+    let name = &entry.position.name;
+    match (&entry.picks, kind) {
+        (Some(picks), _) => format!("{} x {name}", picks.len()),
+        _ if entry.position.once => name.clone(),
+        (_, RuleKind::Edge | RuleKind::EdgeCrease) => format!("{} x {name}", class_size(entry, kind, 0)),
+        (_, RuleKind::VertexCrease) => format!("(k+1) x {name}"),
+        _ => format!("n x {name}"),
+    }
+}
+
+
+#[cfg(test)]
+mod tests {
+    use crate::scheme::catalogue;
+
+    #[test]
+    fn sums_of_the_catalogue_are_identities() {
+        for listed in catalogue::SCHEMES {
+            let scheme = catalogue::open(listed.id).unwrap().unwrap();
+            let sums = scheme.check(&[3, 4, 5, 6, 7, 12]).unwrap_or_else(|faults| panic!("{faults}"));
+            assert_eq!(sums.len(), scheme.book.rules.len());
+            for sum in sums {
+                assert!(sum.identity, "{}: [{}]", listed.id, sum.kind.name());
+                assert!(sum.approx_deviation < 1e-14);
+            }
+        }
+    }
+}

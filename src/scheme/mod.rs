@@ -1,0 +1,196 @@
+//! What is a subdivision scheme?
+//!
+//! A short TOML file: which mesh, which split, and the weights as formulas in the valence. Nothing else defines a scheme;
+//! the built-in ones are such files too ([`catalogue`]). A scheme knows positions by name and does not know meshes: weights
+//! meet topology in [`crate::refine`].
+
+pub mod catalogue;
+mod check;
+mod claim;
+mod evaluate;
+pub mod formula;
+mod parse;
+pub mod vocabulary;
+
+pub(crate) use check::class_size;
+pub use check::{RuleSum, SUM_TOLERANCE};
+pub use claim::{Claim, Quantity};
+pub use evaluate::Place;
+pub use parse::{KEYS, MAX_FILE_BYTES};
+
+use crate::fault::{Fault, Faults};
+use formula::{Condition, Formula};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use vocabulary::{Position, RuleKind};
+
+/// A formula with its place in the file.
+#[derive(Clone, Debug)]
+pub struct Placed {
+    /// The formula.
+    pub formula: Formula,
+    /// The bytes of the file that hold it, quotes included.
+    pub span: Range<usize>,
+    /// Where its text starts in the file; `None` when escapes stand between text and file.
+    pub start: Option<usize>,
+}
+
+impl Placed {
+    /// Bytes of the formula as bytes of the file.
+    pub fn place(&self, inner: Range<usize>) -> Range<usize> {
+        self.start.map_or(self.span.clone(), |start| start + inner.start..start + inner.end)
+    }
+}
+
+/// Something told once, or case by case.
+#[derive(Clone, Debug)]
+pub enum Cases<T> {
+    /// The same in every case.
+    Always(T),
+    /// Told by conditions, of which exactly one holds.
+    When(Vec<(Condition, Range<usize>, T)>),
+}
+
+impl<T> Cases<T> {
+    /// What is told, case by case.
+    pub fn values(&self) -> Vec<&T> {
+        match self {
+            Cases::Always(value) => vec![value],
+            Cases::When(cases) => cases.iter().map(|(_, _, value)| value).collect(),
+        }
+    }
+}
+
+/// The weights of a class of points.
+#[derive(Clone, Debug)]
+pub enum Weights {
+    /// One formula for each of them, in which `j` is the point's index.
+    Each(Placed),
+    /// A formula for every point.
+    List(Vec<Placed>, Range<usize>),
+}
+
+/// An index into a class of points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pick {
+    /// A number; negative ones count from the end.
+    Index(i64),
+    /// The last one at a boundary vertex with k faces.
+    K,
+}
+
+/// One row of a rule: a class of points, perhaps some of them only, with their weights.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// The class.
+    pub position: Position,
+    /// The points of the class that are meant; `None` for all.
+    pub picks: Option<Vec<Pick>>,
+    /// Their weights.
+    pub weights: Cases<Weights>,
+    /// Where it stands.
+    pub span: Range<usize>,
+}
+
+/// How a new point is made.
+#[derive(Clone, Debug)]
+pub struct Rule {
+    /// What it is told around.
+    pub kind: RuleKind,
+    /// Its rows, in the file's order.
+    pub entries: Vec<Entry>,
+    /// Where its table starts.
+    pub span: Range<usize>,
+}
+
+/// A number that the user may choose.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name in formulas.
+    pub name: String,
+    /// Its value: the default, or what was set.
+    pub value: Placed,
+    /// What it means, in words.
+    pub means: String,
+    /// The least and the greatest value allowed.
+    pub range: Option<(Placed, Placed)>,
+    /// Whether it must be a whole number.
+    pub integer: bool,
+    /// Where it stands.
+    pub span: Range<usize>,
+}
+
+/// A named formula.
+#[derive(Clone, Debug)]
+pub struct Let {
+    /// Its name in other formulas.
+    pub name: String,
+    /// What it stands for.
+    pub value: Cases<Placed>,
+    /// Whether it depends on the index `j`, perhaps through other names.
+    pub uses_index: bool,
+}
+
+/// The rules of one file with the names that they use.
+#[derive(Clone, Debug)]
+pub struct RuleBook {
+    /// The file's name, for messages.
+    pub origin: String,
+    /// The file's text.
+    pub text: String,
+    /// What the scheme is called.
+    pub title: String,
+    /// Keys of `schemes/sources.toml`, or words.
+    pub sources: Vec<String>,
+    /// Numbers that the user may choose.
+    pub parameters: Vec<Parameter>,
+    /// Named formulas.
+    pub lets: Vec<Let>,
+    /// The rules.
+    pub rules: BTreeMap<RuleKind, Rule>,
+}
+
+impl RuleBook {
+    /// The faults as an error about this file.
+    pub fn faults(&self, faults: Vec<Fault>) -> Faults {
+        Faults { origin: self.origin.clone(), text: self.text.clone(), faults }
+    }
+}
+
+/// A subdivision scheme.
+#[derive(Clone, Debug)]
+pub struct Scheme {
+    /// Its short name: the file's name without its ending.
+    pub id: String,
+    /// Its rules.
+    pub book: RuleBook,
+    /// The kind of mesh: triangles, quads or polygons.
+    pub mesh: String,
+    /// The split, a name of the vocabulary.
+    pub split: String,
+    /// The boundary files that go with it; the first is the default.
+    pub boundary: Vec<String>,
+    /// What the literature says about it.
+    pub claims: Vec<Claim>,
+}
+
+impl Scheme {
+    /// The valence at which the scheme is regular: 6 on triangles, 4 on quads.
+    pub fn regular_valence(&self) -> usize {
+        if self.mesh == "triangles" { 6 } else { 4 }
+    }
+
+    /// Whether extraordinary points are faces (dual schemes) and not vertices.
+    pub fn is_dual(&self) -> bool {
+        self.book.rules.contains_key(&RuleKind::Corner)
+    }
+
+    /// Whether the scheme keeps the points of the coarse mesh: its vertex rule is the vertex itself.
+    pub fn is_interpolating(&self) -> bool {
+        self.book.rules.get(&RuleKind::Vertex).is_some_and(|rule| {
+            let [entry] = rule.entries.as_slice() else { return false };
+            let one = |weights: &&Weights| matches!(weights, Weights::Each(formula) if formula.formula.text() == "1");
+            entry.position.name == "centre" && entry.weights.values().iter().all(one)
+        })
+    }
+}

@@ -1,0 +1,314 @@
+//! Which words may a scheme file use, and which points do they name?
+//!
+//! The words are data: `schemes/vocabulary.toml` lists the splits and the positions, each position with the walks that
+//! lead to its points. Any other point is named by its address: `"2,0"` is two edges straight on, `"1,1"` one on and one
+//! over ([`address`]).
+
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+/// The longest walk that an address may stand for, in edges.
+pub const MAX_REACH: u32 = 16;
+
+/// What a rule is told around, and on which kind of place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
+pub enum RuleKind {
+    /// A vertex inside the mesh.
+    #[serde(rename = "vertex")]
+    Vertex,
+    /// An edge inside the mesh.
+    #[serde(rename = "edge")]
+    Edge,
+    /// An edge inside the mesh, told from an end whose valence is not the regular one.
+    #[serde(rename = "edge.from-irregular-end")]
+    EdgeFromIrregularEnd,
+    /// A face.
+    #[serde(rename = "face")]
+    Face,
+    /// A corner of a face.
+    #[serde(rename = "corner")]
+    Corner,
+    /// A vertex on a smooth boundary or crease.
+    #[serde(rename = "vertex.crease")]
+    VertexCrease,
+    /// A vertex that is a corner of the boundary.
+    #[serde(rename = "vertex.corner")]
+    VertexCorner,
+    /// An edge of the boundary or of a crease.
+    #[serde(rename = "edge.crease")]
+    EdgeCrease,
+}
+
+impl RuleKind {
+    /// Every kind of rule with its table in a scheme file.
+    pub const ALL: [(&'static str, RuleKind); 8] = [
+        ("vertex", RuleKind::Vertex),
+        ("edge", RuleKind::Edge),
+        ("edge.from-irregular-end", RuleKind::EdgeFromIrregularEnd),
+        ("face", RuleKind::Face),
+        ("corner", RuleKind::Corner),
+        ("vertex.crease", RuleKind::VertexCrease),
+        ("vertex.corner", RuleKind::VertexCorner),
+        ("edge.crease", RuleKind::EdgeCrease),
+    ];
+
+    /// The rule's table in a scheme file.
+    pub fn name(self) -> &'static str {
+        RuleKind::ALL.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
+    }
+
+    /// The variable that formulas of this rule may use beside parameters and `[let]` names.
+    pub fn variable(self) -> Option<&'static str> {
+        match self {
+            RuleKind::Edge | RuleKind::EdgeCrease | RuleKind::VertexCorner => None,
+            RuleKind::VertexCrease => Some("k"),
+            _ => Some("n"),
+        }
+    }
+
+    /// Whether this rule belongs in a boundary file.
+    pub fn is_boundary(self) -> bool {
+        matches!(self, RuleKind::VertexCrease | RuleKind::VertexCorner | RuleKind::EdgeCrease)
+    }
+}
+
+/// One move of a walk over half-edges.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Move {
+    /// Along the face to the left.
+    Next,
+    /// Back along the face to the left.
+    Prev,
+    /// To the edge's other half.
+    Twin,
+    /// To the next half-edge that leaves the same vertex, counter-clockwise.
+    Turn,
+    /// Over the edge and straight on.
+    On,
+}
+
+/// The point that a walk ends at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arrival {
+    /// The point that the last half-edge leaves.
+    Origin,
+    /// The point that the last half-edge leads to.
+    Target,
+    /// The point that this step makes for the face to the left of the last half-edge.
+    NewFace,
+    /// The point that this step makes for the edge of the last half-edge.
+    NewEdge,
+}
+
+/// A way from a half-edge to a point.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Walk {
+    /// The moves, in order.
+    pub moves: Vec<Move>,
+    /// Where it ends.
+    pub arrival: Arrival,
+}
+
+impl Walk {
+    fn parse(text: &str) -> Option<Walk> {
+        let mut words: Vec<&str> = text.split_whitespace().collect();
+        let arrival = match words.pop()? {
+            "origin" => Arrival::Origin,
+            "target" => Arrival::Target,
+            "new-face" => Arrival::NewFace,
+            "new-edge" => Arrival::NewEdge,
+            _ => return None,
+        };
+        let step = |word: &&str| match *word {
+            "next" => Some(Move::Next),
+            "prev" => Some(Move::Prev),
+            "twin" => Some(Move::Twin),
+            "turn" => Some(Move::Turn),
+            "on" => Some(Move::On),
+            _ => None,
+        };
+        Some(Walk { moves: words.iter().map(step).collect::<Option<_>>()?, arrival })
+    }
+}
+
+/// A class of points that a rule may give weights to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Position {
+    /// Its name in scheme files: a word of the vocabulary, or an address.
+    pub name: String,
+    /// The rules that may use it.
+    pub around: Vec<RuleKind>,
+    /// The kinds of mesh that have it; empty for all.
+    pub meshes: Vec<String>,
+    /// Whether the walks are made from the first half-edge only.
+    pub once: bool,
+    /// The walks to its points, made from every half-edge in turn.
+    pub walks: Vec<Walk>,
+    /// What it is, in words.
+    pub means: String,
+}
+
+impl Position {
+    /// Whether its points are made by the same step.
+    pub fn births(&self) -> Option<RuleKind> {
+        self.walks.iter().find_map(|walk| match walk.arrival {
+            Arrival::NewFace => Some(RuleKind::Face),
+            Arrival::NewEdge => Some(RuleKind::Edge),
+            Arrival::Origin | Arrival::Target => None,
+        })
+    }
+}
+
+/// How a step makes new faces out of old ones.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Split {
+    /// The kinds of mesh that it can be applied to.
+    pub meshes: Vec<String>,
+    /// The rules that it asks for.
+    pub births: Vec<RuleKind>,
+    /// What it does, in words.
+    pub means: String,
+}
+
+/// The words of scheme files.
+#[derive(Clone, Debug)]
+pub struct Vocabulary {
+    /// The splits by name.
+    pub splits: BTreeMap<String, Split>,
+    /// The named positions.
+    pub positions: Vec<Position>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PositionRow {
+    around: Vec<RuleKind>,
+    name: String,
+    #[serde(default)]
+    meshes: Vec<String>,
+    #[serde(default)]
+    once: bool,
+    walks: Vec<String>,
+    means: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Table {
+    splits: BTreeMap<String, Split>,
+    positions: Vec<PositionRow>,
+}
+
+/// The vocabulary's text, as data for other readers.
+pub const VOCABULARY: &str = include_str!("../../schemes/vocabulary.toml");
+
+impl Vocabulary {
+    /// The vocabulary of this build.
+    pub fn get() -> &'static Vocabulary {
+        static VOCABULARY_ONCE: OnceLock<Vocabulary> = OnceLock::new();
+        VOCABULARY_ONCE.get_or_init(|| Vocabulary::parse(VOCABULARY).unwrap_or_else(|| Vocabulary::empty()))
+    }
+
+    /// Held to be non-empty by a test: the table is part of the build.
+    fn empty() -> Vocabulary {
+        Vocabulary { splits: BTreeMap::new(), positions: Vec::new() }
+    }
+
+    fn parse(text: &str) -> Option<Vocabulary> {
+        let table: Table = toml::from_str(text).ok()?;
+        let read = |row: PositionRow| {
+            let walks = row.walks.iter().map(|walk| Walk::parse(walk)).collect::<Option<_>>()?;
+            let PositionRow { around, name, meshes, once, means, .. } = row;
+            Some(Position { name, around, meshes, once, walks, means })
+        };
+        Some(Vocabulary { splits: table.splits, positions: table.positions.into_iter().map(read).collect::<Option<_>>()? })
+    }
+
+    /// The positions that a rule may name on a kind of mesh (`None`: any).
+    pub fn around<'a>(&'a self, kind: RuleKind, mesh: Option<&'a str>) -> impl Iterator<Item = &'a Position> {
+        let fits = move |position: &Position| match mesh {
+            Some(mesh) => position.meshes.is_empty() || position.meshes.iter().any(|own| own == mesh),
+            None => true,
+        };
+        self.positions.iter().filter(move |position| position.around.contains(&kind) && fits(position))
+    }
+
+    /// The position of a name or an address around a rule's place, if there is one.
+    pub fn find(&self, kind: RuleKind, mesh: Option<&str>, name: &str) -> Option<Position> {
+        self.around(kind, mesh).find(|position| position.name == name).cloned().or_else(|| address(kind, name))
+    }
+}
+
+/// The class of points at an address `"i,j"`. Around a vertex: from it walk i edges straight along each of its edges in
+/// turn, turn counter-clockwise once, walk j edges. Around a corner of a face: i edges in the straight continuation of
+/// (next corner -> this corner), then j in that of (previous corner -> this corner); `"0,0"` is the ring itself.
+pub fn address(kind: RuleKind, name: &str) -> Option<Position> {
+    let (i, j) = name.split_once(',')?;
+    let (i, j): (u32, u32) = (i.trim().parse().ok()?, j.trim().parse().ok()?);
+    if i + j > MAX_REACH {
+        return None;
+    }
+    let moves = match kind {
+        RuleKind::Vertex | RuleKind::EdgeFromIrregularEnd if i >= 1 => straight_and_over(vec![], i, j),
+        RuleKind::Corner if i >= 1 => straight_and_over(vec![Move::Twin, Move::On], i, j),
+        RuleKind::Corner if j >= 1 => straight_and_over(vec![Move::Prev, Move::On], j, 0),
+        RuleKind::Corner => {
+            let origin = Walk { moves: vec![], arrival: Arrival::Origin };
+            return Some(at_address(kind, name, origin));
+        }
+        _ => return None,
+    };
+    Some(at_address(kind, name, Walk { moves, arrival: Arrival::Target }))
+}
+
+/// From the half-edge that `moves` lead to: over it and on to its i-th edge; then turned once and j edges over.
+fn straight_and_over(mut moves: Vec<Move>, i: u32, j: u32) -> Vec<Move> {
+    moves.extend((1..i).map(|_| Move::On));
+    if j > 0 {
+        moves.extend([Move::On, Move::Turn]);
+        moves.extend((1..j).map(|_| Move::On));
+    }
+    moves
+}
+
+fn at_address(kind: RuleKind, name: &str, walk: Walk) -> Position {
+    let means = format!("the points at address {name}");
+    Position { name: name.to_string(), around: vec![kind], meshes: vec![], once: false, walks: vec![walk], means }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_is_read_whole() {
+        let vocabulary = Vocabulary::get();
+        assert_eq!(vocabulary.splits.len(), VOCABULARY.matches("[splits.").count());
+        assert_eq!(vocabulary.positions.len(), VOCABULARY.matches("[[positions]]").count());
+        assert!(vocabulary.splits.len() >= 3);
+    }
+
+    #[test]
+    fn no_two_positions_of_a_rule_share_a_name() {
+        for (_, kind) in RuleKind::ALL {
+            for mesh in ["triangles", "quads", "polygons"] {
+                let mut names: Vec<_> = Vocabulary::get().around(kind, Some(mesh)).map(|p| &p.name).collect();
+                names.sort();
+                let all = names.len();
+                names.dedup();
+                assert_eq!(names.len(), all, "{} on {mesh}", kind.name());
+            }
+        }
+    }
+
+    #[test]
+    fn addresses_stop_at_a_stated_reach() {
+        assert!(address(RuleKind::Vertex, "2,1").is_some());
+        assert!(address(RuleKind::Vertex, "0,1").is_none(), "the canonical address of that point is 1,0");
+        assert!(address(RuleKind::Corner, "0,0").is_some());
+        assert!(address(RuleKind::Vertex, "9,9").is_none());
+        assert!(address(RuleKind::Edge, "1,0").is_none());
+    }
+}
