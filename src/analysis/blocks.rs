@@ -19,8 +19,9 @@ use num_complex::Complex64;
 use rustfft::FftPlannerScalar;
 
 /// Up to this many terms a sum over the ring is added up for each frequency; beyond, all frequencies come from one FFT. A
-/// tuning.
-const FEW_TERMS: usize = 8;
+/// tuning, with one more reason: the FFT takes its twiddles from the machine's C library, and committed reports, of small
+/// valences, must not see the machine.
+const FEW_TERMS: usize = 64;
 
 /// A unit of the real form of the blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

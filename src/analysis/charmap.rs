@@ -162,11 +162,11 @@ impl Shape {
         let least = samples.iter().map(|s| s.jacobian).fold(f64::INFINITY, f64::min);
         let mut border: Vec<&Sample> = samples.iter().filter(|s| lattice.ring(s.at.0, s.at.1) == scale).collect();
         border.sort_by(|a, b| (a.at.1 * b.at.0).cmp(&(b.at.1 * a.at.0)));
-        let turns: f64 = border.windows(2).map(|pair| (pair[1].point / pair[0].point).arg()).sum();
+        let angle = |a: Complex64, b: Complex64| libm::atan2((a.conj() * b).im, (a.conj() * b).re);
+        let turns: f64 = border.windows(2).map(|pair| angle(pair[0].point, pair[1].point)).sum();
         // the mirror of a sector: half-way between two spokes, or through a corner of the central face
-        let half_sector = if lattice.has_centre() { std::f64::consts::PI / valence as f64 } else { 0.0 };
-        let axis = Complex64::from_polar(1.0, -half_sector);
-        let cosine = |s: &Sample| (s.point * axis).re / s.point.norm();
+        let axis = RootsOfUnity::new(2 * valence).get(if lattice.has_centre() { -1 } else { 0 });
+        let cosine = |s: &Sample| (s.point * axis).re / s.point.norm_sqr().sqrt();
         let shape = Shape {
             approx_least_jacobian: least / largest,
             approx_winding: turns * valence as f64 / std::f64::consts::TAU,

@@ -79,6 +79,6 @@ impl Mask {
 
 /// The first entry that is not zero, against rounding.
 pub(super) fn first_nonzero(values: &[Complex64]) -> Option<usize> {
-    let largest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
-    values.iter().position(|value| value.norm() > 1e-9 * largest)
+    let largest = values.iter().map(|value| value.norm_sqr()).fold(0.0, f64::max);
+    values.iter().position(|value| value.norm_sqr() > 1e-18 * largest)
 }

@@ -34,6 +34,11 @@ impl Eigenvalue {
         cluster_radius(self.cluster)
     }
 
+    /// Its modulus.
+    pub fn modulus(&self) -> f64 {
+        modulus(self.value)
+    }
+
     /// Whether nothing else of its frequency is near.
     pub fn is_isolated(&self) -> bool {
         self.cluster == 1
@@ -86,7 +91,7 @@ impl Spectrum {
     }
 
     fn position_of_one(&self) -> Option<usize> {
-        let distance = |index: &usize| (self.eigenvalues[*index].value - 1.0).norm();
+        let distance = |index: &usize| modulus(self.eigenvalues[*index].value - 1.0);
         let constant = (0..self.eigenvalues.len()).filter(|index| self.eigenvalues[*index].frequency == 0);
         constant.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
@@ -120,7 +125,7 @@ impl Spectrum {
         let mut skip: Vec<(usize, Complex64, usize)> = Vec::new();
         for e in &self.eigenvalues {
             let known = skip.iter_mut().find(|(k, value, left)| {
-                *k == e.frequency && *left > 0 && (*value - e.value).norm() <= cluster_radius(e.cluster)
+                *k == e.frequency && *left > 0 && modulus(*value - e.value) <= cluster_radius(e.cluster)
             });
             match known {
                 Some((_, _, left)) => *left -= 1,
@@ -162,9 +167,14 @@ impl Spectrum {
     }
 }
 
+/// |z|, without the machine's C library.
+fn modulus(z: Complex64) -> f64 {
+    if z.im == 0.0 { z.re.abs() } else { z.norm_sqr().sqrt() }
+}
+
 /// Whether two eigenvalues are approximately equal.
 pub fn near(a: Complex64, b: Complex64) -> bool {
-    (a - b).norm() <= NEAR
+    modulus(a - b) <= NEAR
 }
 
 fn isolated_real(e: &Eigenvalue) -> Option<f64> {
@@ -182,7 +192,7 @@ fn count_clusters(eigenvalues: &mut [Eigenvalue], cores: &Cores) {
     let all: Vec<Eigenvalue> = eigenvalues.to_vec();
     for e in eigenvalues.iter_mut() {
         let radius = cluster_radius(size(e.core));
-        let own = all.iter().filter(|other| other.core == e.core && (other.value - e.value).norm() <= radius);
+        let own = all.iter().filter(|other| other.core == e.core && modulus(other.value - e.value) <= radius);
         let (sum, count) = own.fold((Complex64::ZERO, 0), |(sum, count), other| (sum + other.value, count + 1));
         let others = all.iter().filter(|other| other.core != e.core && near(other.value, e.value)).count();
         e.cluster = count + others;
@@ -194,11 +204,11 @@ fn count_clusters(eigenvalues: &mut [Eigenvalue], cores: &Cores) {
 
 /// By modulus, largest first; moduli that are approximately equal in order of frequency, then of the argument.
 fn sort(eigenvalues: &mut [Eigenvalue]) {
-    eigenvalues.sort_by(|a, b| b.value.norm().total_cmp(&a.value.norm()));
+    eigenvalues.sort_by(|a, b| b.modulus().total_cmp(&a.modulus()));
     let mut start = 0;
     while start < eigenvalues.len() {
-        let top = eigenvalues[start].value.norm();
-        let length = eigenvalues[start..].iter().take_while(|e| top - e.value.norm() <= NEAR).count();
+        let top = eigenvalues[start].modulus();
+        let length = eigenvalues[start..].iter().take_while(|e| top - e.modulus() <= NEAR).count();
         eigenvalues[start..start + length].sort_by(|a, b| {
             a.frequency
                 .cmp(&b.frequency)
@@ -237,7 +247,7 @@ fn newton_step(a: &Matrix3<f64>, x: Complex64) -> Complex64 {
     let value = ((x - trace) * x + minors) * x - determinant;
     let slope = (x * 3.0 - 2.0 * trace) * x + minors;
     // near a multiple root the step says nothing
-    if slope.norm() > 1e-3 { x - value / slope } else { x }
+    if modulus(slope) > 1e-3 { x - value / slope } else { x }
 }
 
 const MAX_SWEEPS: usize = 10_000;

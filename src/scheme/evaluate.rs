@@ -1,7 +1,7 @@
 //! What are the weights of a rule at this valence, in this world of numbers?
 
 use super::formula::{Condition, Failure, Formula, Names};
-use super::{Cases, Entry, Pick, Placed, RuleBook, Weights};
+use super::{Cases, Claim, Entry, Pick, Placed, RuleBook, Scheme, Weights};
 use crate::fault::Fault;
 use crate::numbers::{Laurent, Number, Trouble};
 use std::cell::RefCell;
@@ -195,5 +195,16 @@ impl RuleBook {
         let at = place.variable.map_or(String::new(), |name| format!(" at {name} = {}", place.count));
         let message = format!("{given} weights for {wanted} points of `{}`{at}", entry.position.name);
         Fault::at(span.clone(), message, format!("{given} weights")).hint("give one weight for each point, or one formula in j")
+    }
+}
+
+impl Scheme {
+    /// Whether a claim is made for a valence.
+    ///
+    /// # Errors
+    /// When its condition has no value there.
+    pub fn claim_is_made_at(&self, claim: &Claim, valence: usize) -> Result<bool, Fault> {
+        let Some(condition) = &claim.condition else { return Ok(true) };
+        self.book.holds(condition, &claim.span, Some("n"), valence as i64)
     }
 }

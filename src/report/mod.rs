@@ -1,0 +1,3 @@
+//! What would a person like to see?
+
+pub mod plots;
