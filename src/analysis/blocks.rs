@@ -250,8 +250,8 @@ impl Blocks {
     }
 }
 
-/// A vector of one frequency: the value at (sector s, orbit t) is `orbits[t]` w^(k s), that of the centre `centre`; as a row
-/// vector its entries are the conjugate waves, `orbits[t]` w^(-k s).
+/// A vector of one frequency. A right vector has the value `orbits[t]` w^(k s) at (sector s, orbit t) and `centre` at the
+/// centre. A left vector u of B_k has the entries u_t w^(-k s)/n there, and u_centre at the centre.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModeVector {
     /// k.

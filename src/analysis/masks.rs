@@ -34,12 +34,13 @@ pub struct Mask {
 }
 
 impl Mask {
-    /// The limit mask from a left vector for the eigenvalue 1: its weights sum to 1.
+    /// The limit mask from a left vector u of B_0 for the eigenvalue 1: its weights sum to 1. B_0 acts on the mean of each
+    /// orbit, so that each of its n points has the weight u_t/n.
     pub fn limit(left: &ModeVector, local: &LocalMatrix) -> Option<Mask> {
         let n = local.valence() as f64;
-        let sum = left.centre + n * left.orbits.iter().map(|amplitude| amplitude.re).sum::<f64>();
+        let sum = left.centre + left.orbits.iter().map(|value| value.re).sum::<f64>();
         let centre = local.centre.as_ref().map(|_| left.centre / sum);
-        let amplitudes = left.orbits.iter().map(|amplitude| amplitude / sum).collect();
+        let amplitudes = left.orbits.iter().map(|value| value / (n * sum)).collect();
         (sum != 0.0).then_some(Mask { form: Form::Cosine, frequency: 0, centre, amplitudes })
     }
 

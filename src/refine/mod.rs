@@ -3,17 +3,19 @@
 //! The one place where weights meet topology: scheme x mesh -> rows of weights. A row on the canonical patch is a row of
 //! the local subdivision matrix; rows times positions are the refined mesh.
 
+mod names;
 mod regular;
 mod symmetry;
 
+pub use names::OrbitNames;
 pub use regular::{PatchRows, RegularStencils};
 pub use symmetry::check_symmetry;
 
-use crate::fault::Fault;
+use crate::fault::{Fault, Faults};
 use crate::mesh::{Connectivity, Lattice, Site};
 use crate::numbers::{Number, Trouble};
 use crate::scheme::vocabulary::{Arrival, Move, RuleKind, Walk};
-use crate::scheme::{Place, Rule, RuleBook, Scheme};
+use crate::scheme::{Place, Rule, RuleBook, RuleSum, Scheme};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::fmt;
@@ -60,6 +62,23 @@ impl From<Fault> for Obstacle {
 impl From<Trouble> for Obstacle {
     fn from(trouble: Trouble) -> Self {
         Obstacle::Trouble(trouble)
+    }
+}
+
+/// Checks a scheme as far as it can be checked before its analysis: sums, cases and values ([`Scheme::check`]) and symmetry
+/// ([`check_symmetry`]), at the valences asked for.
+///
+/// # Errors
+/// Every fault found.
+pub fn check(scheme: &Scheme, valences: &[usize]) -> Result<Vec<RuleSum>, Faults> {
+    match (scheme.check(valences), check_symmetry(scheme, valences)) {
+        (Ok(sums), Ok(())) => Ok(sums),
+        (Ok(_), Err(faults)) | (Err(faults), Ok(())) => Err(faults),
+        (Err(mut faults), Err(more)) => {
+            let new = more.faults.into_iter().filter(|fault| faults.faults.iter().all(|known| known.span != fault.span));
+            faults.faults.extend(new.collect::<Vec<_>>());
+            Err(faults)
+        }
     }
 }
 

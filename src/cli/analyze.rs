@@ -1,0 +1,149 @@
+//! `analyze`: what does this scheme do, at these valences?
+
+use super::open::open_checked;
+use super::valences::Valences;
+use super::{Failure, failure, print};
+use clap::{Args, ValueEnum};
+use eigenring::analysis::Analyzer;
+use eigenring::refine::Obstacle;
+use eigenring::report::{self, Figure, Picture, Report};
+use eigenring::scheme::Scheme;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "Examples:
+  eigenring analyze loop --valence 3..12
+  eigenring analyze my-scheme.toml --valence 3,4,7..9,50 --out my-report
+  eigenring analyze modified-butterfly --set w=1/64 --format md
+  eigenring analyze catmull-clark --valence 5 --format json | less";
+
+/// Analyses a scheme and writes its report: Markdown, LaTeX, CSV, JSON, and pictures as SVG and PNG.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Analyze {
+    /// A scheme of the catalogue, or the path of a scheme file
+    scheme: String,
+    /// Valences: 3..12 (both included), or a list such as 3,4,7..9,50
+    #[arg(long, short = 'n', default_value = "3..12", value_name = "LIST")]
+    valence: Valences,
+    /// Set a parameter of the scheme, for example w=1/32; may be given several times
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// The folder that the report is written into [default: reports/SCHEME]
+    #[arg(long, short, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one form of the report on standard output and write no files
+    #[arg(long, value_enum)]
+    format: Option<Format>,
+    /// Write no pictures
+    #[arg(long)]
+    no_pictures: bool,
+}
+
+/// The forms of a report.
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    Json,
+    Csv,
+    Md,
+    Latex,
+}
+
+impl Analyze {
+    pub(crate) fn run(self) -> Result<(), Failure> {
+        let (scheme, sums) = open_checked(&self.scheme, &self.set, &self.valence.0)?;
+        let analyzer = Analyzer::new(&scheme).map_err(|obstacle| explain(&scheme, obstacle))?;
+        let analyses = self.analyses(&analyzer).map_err(|obstacle| explain(&scheme, obstacle))?;
+        let pictures = if self.no_pictures || self.format.is_some() {
+            Vec::new()
+        } else {
+            report::pictures(&analyzer, &analyses).map_err(|obstacle| explain(&scheme, obstacle))?
+        };
+        let report = Report::new(&scheme, &analyzer, analyses, &sums).map_err(|obstacle| explain(&scheme, obstacle))?;
+        match self.format {
+            Some(format) => print(&one_form(&report, format)?),
+            None => {
+                let folder = self.out.unwrap_or_else(|| Path::new("reports").join(&scheme.id));
+                let written = write(&report, &pictures, &folder)?;
+                print(&format!("{}\n{}", report::terminal(&report), files_line(&folder, &written)))
+            }
+        }
+    }
+
+    fn analyses(&self, analyzer: &Analyzer) -> Result<Vec<eigenring::analysis::Analysis>, Obstacle> {
+        let work: usize = self.valence.0.iter().sum();
+        let bar = if work > 5_000 { ProgressBar::new(self.valence.0.len() as u64) } else { ProgressBar::hidden() };
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} valences, {eta} left") {
+            bar.set_style(style);
+        }
+        let analyses = self.valence.0.iter().map(|n| {
+            let analysis = analyzer.at(*n);
+            bar.inc(1);
+            analysis
+        });
+        let analyses = analyses.collect();
+        bar.finish_and_clear();
+        analyses
+    }
+}
+
+/// An obstacle in words; faults with their place in the scheme file.
+pub(crate) fn explain(scheme: &Scheme, obstacle: Obstacle) -> Failure {
+    match obstacle {
+        Obstacle::Fault(fault) => Failure::Faults(scheme.book.faults(vec![fault])),
+        other => failure(format!("{}: {other}", scheme.book.title)),
+    }
+}
+
+fn one_form(report: &Report, format: Format) -> Result<String, Failure> {
+    Ok(match format {
+        Format::Json => report::json(report).map_err(|error| failure(error.to_string()))?,
+        Format::Csv => report::csv(report),
+        Format::Md => report::markdown(report, &[]),
+        Format::Latex => report::latex(report, &[]),
+    })
+}
+
+/// Writes every file of the report; gives their names.
+fn write(report: &Report, pictures: &[Picture], folder: &Path) -> Result<Vec<String>, Failure> {
+    let figures: Vec<Figure> = pictures.iter().map(Figure::of).collect();
+    let texts = report::texts(report, &figures).map_err(|error| failure(error.to_string()))?;
+    let mut files: Vec<(String, Vec<u8>)> = texts.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
+    for (picture, png) in pictures.iter().zip(painted(pictures)) {
+        let png = png.map_err(|error| failure(format!("the picture {}: {error}", picture.name)))?;
+        files.push((format!("{}.svg", picture.name), picture.svg.clone().into_bytes()));
+        files.push((format!("{}.png", picture.name), png));
+    }
+    let trouble = |what: &Path, error: std::io::Error| failure(format!("`{}` can't be written: {error}", what.display()));
+    fs::create_dir_all(folder).map_err(|error| trouble(folder, error))?;
+    for (name, bytes) in &files {
+        let path = folder.join(name);
+        report::write_whole(&path, bytes).map_err(|error| trouble(&path, error))?;
+    }
+    Ok(files.into_iter().map(|(name, _)| name).collect())
+}
+
+/// The pictures as PNG, side by side on as many threads.
+fn painted(pictures: &[Picture]) -> Vec<Result<Vec<u8>, String>> {
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = pictures.iter().map(|picture| scope.spawn(|| report::png(&picture.svg))).collect();
+        let painted = threads.into_iter().map(|thread| thread.join());
+        painted.map(|result| result.unwrap_or_else(|_| Err("it could not be painted".to_string()))).collect()
+    })
+}
+
+fn files_line(folder: &Path, names: &[String]) -> String {
+    let mut text = format!("Written to {}:\n ", folder.display());
+    let mut length = 1;
+    for name in names {
+        if length + name.len() + 1 > 78 {
+            text.push_str("\n ");
+            length = 1;
+        }
+        text.push(' ');
+        text.push_str(name);
+        length += name.len() + 1;
+    }
+    text + "\n"
+}

@@ -1,0 +1,107 @@
+//! The report as a LaTeX document that compiles as it stands (booktabs, longtable).
+
+use super::markdown::introduction;
+use super::model::Report;
+use super::tables::{Table, tables};
+use super::Figure;
+use std::fmt::Write;
+
+const HEAD: &str = r"\documentclass[10pt]{article}
+\usepackage[utf8]{inputenc}
+\usepackage[T1]{fontenc}
+\usepackage[a4paper,margin=18mm]{geometry}
+\usepackage{amsmath,booktabs,longtable,array,graphicx}
+\setlength{\parindent}{0pt}
+\setlength{\tabcolsep}{4pt}
+% pictures are taken in where their files lie beside this one
+\newcommand{\picture}[2]{\IfFileExists{#1.png}{\begin{figure}[htbp]\centering
+  \includegraphics[width=.9\textwidth]{#1.png}\caption{#2}\end{figure}}{}}
+\begin{document}
+";
+
+/// The report; pictures are taken in where their PNG files lie beside the document.
+pub fn latex(report: &Report, figures: &[Figure]) -> String {
+    let mut text = format!("{HEAD}\\section*{{{}}}\n{}\n", escaped(&report.title), escaped(&introduction(report)));
+    for figure in figures {
+        let _ = writeln!(text, "\\picture{{{}}}{{{}}}", figure.name, escaped(&figure.caption));
+    }
+    for table in tables(report) {
+        let _ = write!(text, "\n\\subsection*{{{}}}\n{}\n\n{}", escaped(&table.title), escaped(&table.note), rows(&table));
+    }
+    text.push_str("\n\\begin{thebibliography}{99}\n");
+    for source in &report.sources {
+        let _ = writeln!(text, "\\bibitem{{{}}} {}", source.key, escaped(&source.citation));
+    }
+    if report.sources.is_empty() {
+        text.push_str("\\bibitem{none} no sources\n");
+    }
+    text.push_str("\\end{thebibliography}\n\\end{document}\n");
+    text
+}
+
+/// A long table with the rules of booktabs. Columns with sentences wrap.
+fn rows(table: &Table) -> String {
+    let longest = |column: usize| table.rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let count = table.head.len();
+    let wide: Vec<bool> = (0..count).map(|column| longest(column) > 40).collect();
+    let narrow_characters: usize = (0..count).filter(|c| !wide[*c]).map(|c| longest(c).max(6)).sum();
+    let share = (0.92 - 0.0105 * narrow_characters as f64).max(0.3) / wide.iter().filter(|w| **w).count().max(1) as f64;
+    let column = |wide: &bool| if *wide { format!(">{{\\raggedright\\arraybackslash}}p{{{share:.2}\\textwidth}}") } else { "l".to_string() };
+    let spec: String = wide.iter().map(column).collect();
+    let line = |row: &Vec<String>| format!("{} \\\\\n", row.iter().map(|cell| escaped(cell)).collect::<Vec<_>>().join(" & "));
+    let body: String = table.rows.iter().map(line).collect();
+    let size = if count > 7 { "\\scriptsize" } else { "\\footnotesize" };
+    format!(
+        "{{{size}\n\\begin{{longtable}}{{@{{}}{spec}@{{}}}}\n\\toprule\n{}\\midrule\n\\endhead\n{body}\\bottomrule\n\\end{{longtable}}}}\n",
+        line(&table.head)
+    )
+}
+
+/// Text whose signs LaTeX would take for its own, and mathematical letters.
+fn escaped(text: &str) -> String {
+    text.chars().map(|c| letter(c).map_or(c.to_string(), str::to_string)).collect()
+}
+
+fn letter(c: char) -> Option<&'static str> {
+    Some(match c {
+        '\\' => "\\textbackslash{}",
+        '{' => "\\{",
+        '}' => "\\}",
+        '&' => "\\&",
+        '%' => "\\%",
+        '$' => "\\$",
+        '#' => "\\#",
+        '_' => "\\_",
+        '^' => "\\textasciicircum{}",
+        '~' => "\\textasciitilde{}",
+        '<' => "$<$",
+        '>' => "$>$",
+        '|' => "$|$",
+        'α' => "$\\alpha$",
+        'β' => "$\\beta$",
+        'λ' => "$\\lambda$",
+        'μ' => "$\\mu$",
+        'π' => "$\\pi$",
+        'ω' => "$\\omega$",
+        '²' => "$^2$",
+        '³' => "$^3$",
+        '−' => "$-$",
+        '·' => "$\\cdot$",
+        '×' => "$\\times$",
+        '≤' => "$\\le$",
+        '≥' => "$\\ge$",
+        '≠' => "$\\ne$",
+        '≈' => "$\\approx$",
+        '√' => "$\\surd$",
+        'γ' => "$\\gamma$",
+        'δ' => "$\\delta$",
+        'θ' => "$\\theta$",
+        'σ' => "$\\sigma$",
+        'ρ' => "$\\rho$",
+        'τ' => "$\\tau$",
+        '₀' => "$_0$",
+        '₁' => "$_1$",
+        '₂' => "$_2$",
+        _ => return None,
+    })
+}

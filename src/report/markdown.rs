@@ -1,0 +1,95 @@
+//! The report as Markdown.
+
+use super::model::Report;
+use super::tables::{Table, tables};
+use super::Figure;
+use std::fmt::Write;
+
+/// The report; pictures are linked by file name where they are given.
+pub fn markdown(report: &Report, figures: &[Figure]) -> String {
+    let mut text = format!("# {}\n\n{}\n", report.title, introduction(report));
+    for figure in figures.iter().filter(|figure| figure.name == "stencils") {
+        push_figure(&mut text, figure);
+    }
+    for table in tables(report) {
+        let _ = write!(text, "\n## {}\n\n{}\n\n{}", table.title, escaped(&table.note), rows(&table));
+        for figure in figures.iter().filter(|figure| figure.belongs_to == table.title) {
+            push_figure(&mut text, figure);
+        }
+    }
+    let _ = write!(text, "\n## The conditions\n\n{}", conditions(report));
+    text.push_str("\n## Sources\n\n");
+    for source in &report.sources {
+        let _ = writeln!(text, "- **{}**: {}", source.key, escaped(&source.citation));
+    }
+    text
+}
+
+/// What was analysed, in a paragraph.
+pub(super) fn introduction(report: &Report) -> String {
+    let class = &report.classification;
+    let place = if class.dual { "face with n corners" } else { "vertex with n edges" };
+    let kind = if class.interpolating { "interpolating" } else { "approximating" };
+    let values: Vec<String> = report.parameters.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+    let parameters = if values.is_empty() { String::new() } else { format!(" Parameters: {}.", values.join(", ")) };
+    let residuals: Vec<&str> = report.valences.iter().map(|v| v.residual.bound.as_str()).collect();
+    let vectors: usize = report.valences.iter().map(|v| v.residual.vectors).sum();
+    let worst = residuals.iter().max_by_key(|bound| exponent(bound)).copied().unwrap_or("-");
+    format!(
+        "Mesh: {}. Split: {}. {} scheme, linear; regular at n = {}. Analysed at an extraordinary {place}, over the full \
+         neighbourhood: every point that influences the limit surface over the faces around the centre.{parameters}\n\n\
+         All numbers are approximate (f64, no error bound) unless they are said to be proved. As a check, {vectors} right and left \
+         eigenvectors were put into their equations; the residuals, relative to the vectors, are {worst}.",
+        class.mesh,
+        class.split,
+        capitalised(kind),
+        class.regular_valence,
+    )
+}
+
+fn exponent(bound: &str) -> i32 {
+    bound.rsplit("1e").next().and_then(|digits| digits.parse().ok()).unwrap_or(1)
+}
+
+fn capitalised(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn push_figure(text: &mut String, figure: &Figure) {
+    let _ = write!(text, "\n![{}]({}.svg)\n\n*{}*\n", figure.name, figure.name, escaped(&figure.caption));
+}
+
+/// The table's rows in Markdown's form, columns padded so that the text reads well as it stands.
+fn rows(table: &Table) -> String {
+    let cells: Vec<Vec<String>> =
+        std::iter::once(&table.head).chain(&table.rows).map(|row| row.iter().map(|cell| escaped(cell)).collect()).collect();
+    let width = |column: usize| cells.iter().map(|row| row[column].chars().count()).max().unwrap_or(0).max(3);
+    let widths: Vec<usize> = (0..table.head.len()).map(width).collect();
+    let line = |row: &Vec<String>| {
+        let padded = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}"));
+        format!("| {} |\n", padded.collect::<Vec<_>>().join(" | "))
+    };
+    let rule = widths.iter().map(|width| "-".repeat(*width)).collect::<Vec<_>>().join(" | ");
+    let body: String = cells[1..].iter().map(line).collect();
+    format!("{}| {rule} |\n{body}", line(&cells[0]))
+}
+
+/// Text whose signs Markdown would take for its own.
+fn escaped(text: &str) -> String {
+    text.replace('|', "\\|").replace('*', "\\*").replace('_', "\\_").replace('<', "&lt;")
+}
+
+/// Each condition in words, with what is missing and its sources.
+fn conditions(report: &Report) -> String {
+    let mut text = String::new();
+    let Some(first) = report.valences.first() else { return text };
+    for (index, verdict) in first.verdicts.iter().enumerate() {
+        let _ = writeln!(text, "- **{}**: {}. [{}]", verdict.claim, escaped(&verdict.states), verdict.source.join(", "));
+        for valence in &report.valences {
+            let Some(own) = valence.verdicts.get(index) else { continue };
+            let _ = writeln!(text, "  - n = {}: {}; {}", valence.n, escaped(&own.value), escaped(&own.why.join("; ")));
+        }
+    }
+    text
+}
