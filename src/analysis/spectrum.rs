@@ -230,11 +230,12 @@ fn eigenvalues_of(matrix: DMatrix<f64>) -> Result<Vec<Complex64>, Obstacle> {
         2 => Ok(roots_of_quadratic(matrix[(0, 0)], matrix[(0, 1)], matrix[(1, 0)], matrix[(1, 1)])),
         3 => {
             let small = Matrix3::from_iterator(matrix.iter().copied());
-            let schur = small.try_schur(f64::EPSILON, MAX_SWEEPS).ok_or_else(no_convergence)?;
+            let schur = DEFLATIONS.iter().find_map(|eps| small.try_schur(*eps, MAX_SWEEPS)).ok_or_else(no_convergence)?;
             Ok(schur.complex_eigenvalues().iter().map(|value| newton_step(&small, *value)).collect())
         }
         _ => {
-            let schur = matrix.try_schur(f64::EPSILON, MAX_SWEEPS).ok_or_else(no_convergence)?;
+            let schur = |eps: &f64| matrix.clone().try_schur(*eps, MAX_SWEEPS);
+            let schur = DEFLATIONS.iter().find_map(schur).ok_or_else(no_convergence)?;
             Ok(schur.complex_eigenvalues().iter().copied().collect())
         }
     }
@@ -250,7 +251,10 @@ fn newton_step(a: &Matrix3<f64>, x: Complex64) -> Complex64 {
     if modulus(slope) > 1e-3 { x - value / slope } else { x }
 }
 
-const MAX_SWEEPS: usize = 10_000;
+const MAX_SWEEPS: usize = 1_000;
+
+/// What counts as zero below the diagonal. On Jordan blocks the iteration may never reach the first of these.
+const DEFLATIONS: [f64; 4] = [f64::EPSILON, 1e-14, 1e-12, 1e-10];
 
 fn no_convergence() -> Obstacle {
     Obstacle::Limit(format!("the eigenvalues of a core did not converge in {MAX_SWEEPS} sweeps"))

@@ -1,12 +1,11 @@
 //! `analyze`: what does this scheme do, at these valences?
 
-use super::open::open_checked;
+use super::open::open;
 use super::valences::Valences;
 use super::{Failure, failure, print};
 use clap::{Args, ValueEnum};
-use eigenring::analysis::Analyzer;
 use eigenring::refine::Obstacle;
-use eigenring::report::{self, Figure, Picture, Report};
+use eigenring::report::{self, NoReport, Picture, Report, Study};
 use eigenring::scheme::Scheme;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
@@ -52,47 +51,41 @@ enum Format {
 
 impl Analyze {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let (scheme, sums) = open_checked(&self.scheme, &self.set, &self.valence.0)?;
-        let analyzer = Analyzer::new(&scheme).map_err(|obstacle| explain(&scheme, obstacle))?;
-        let analyses = self.analyses(&analyzer).map_err(|obstacle| explain(&scheme, obstacle))?;
-        let pictures = if self.no_pictures || self.format.is_some() {
-            Vec::new()
-        } else {
-            report::pictures(&analyzer, &analyses).map_err(|obstacle| explain(&scheme, obstacle))?
-        };
-        let report = Report::new(&scheme, &analyzer, analyses, &sums).map_err(|obstacle| explain(&scheme, obstacle))?;
+        let scheme = open(&self.scheme, &self.set)?;
+        let draw = !self.no_pictures && self.format.is_none();
+        let bar = progress_bar(&self.valence.0);
+        let study = Study::of(&scheme, &self.valence.0, draw, &|| bar.inc(1));
+        bar.finish_and_clear();
+        let study = study.map_err(|error| explain(&scheme, error))?;
         match self.format {
-            Some(format) => print(&one_form(&report, format)?),
+            Some(format) => print(&one_form(&study.report, format)?),
             None => {
                 let folder = self.out.unwrap_or_else(|| Path::new("reports").join(&scheme.id));
-                let written = write(&report, &pictures, &folder)?;
-                print(&format!("{}\n{}", report::terminal(&report), files_line(&folder, &written)))
+                let written = write(&study, &folder)?;
+                print(&format!("{}\n{}", report::terminal(&study.report), files_line(&folder, &written)))
             }
         }
     }
-
-    fn analyses(&self, analyzer: &Analyzer) -> Result<Vec<eigenring::analysis::Analysis>, Obstacle> {
-        let work: usize = self.valence.0.iter().sum();
-        let bar = if work > 5_000 { ProgressBar::new(self.valence.0.len() as u64) } else { ProgressBar::hidden() };
-        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} valences, {eta} left") {
-            bar.set_style(style);
-        }
-        let analyses = self.valence.0.iter().map(|n| {
-            let analysis = analyzer.at(*n);
-            bar.inc(1);
-            analysis
-        });
-        let analyses = analyses.collect();
-        bar.finish_and_clear();
-        analyses
-    }
 }
 
-/// An obstacle in words; faults with their place in the scheme file.
-pub(crate) fn explain(scheme: &Scheme, obstacle: Obstacle) -> Failure {
-    match obstacle {
-        Obstacle::Fault(fault) => Failure::Faults(scheme.book.faults(vec![fault])),
-        other => failure(format!("{}: {other}", scheme.book.title)),
+/// A bar on a terminal, when the work takes long enough to ask for one.
+fn progress_bar(valences: &[usize]) -> ProgressBar {
+    if valences.iter().sum::<usize>() < 5_000 {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(valences.len() as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} valences, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// What stood in the way, in words; faults with their place in the scheme file.
+pub(crate) fn explain(scheme: &Scheme, error: impl Into<NoReport>) -> Failure {
+    match error.into() {
+        NoReport::Faults(faults) => Failure::Faults(faults),
+        NoReport::Obstacle(Obstacle::Fault(fault)) => Failure::Faults(scheme.book.faults(vec![fault])),
+        NoReport::Obstacle(other) => failure(format!("{}: {other}", scheme.book.title)),
     }
 }
 
@@ -106,9 +99,9 @@ fn one_form(report: &Report, format: Format) -> Result<String, Failure> {
 }
 
 /// Writes every file of the report; gives their names.
-fn write(report: &Report, pictures: &[Picture], folder: &Path) -> Result<Vec<String>, Failure> {
-    let figures: Vec<Figure> = pictures.iter().map(Figure::of).collect();
-    let texts = report::texts(report, &figures).map_err(|error| failure(error.to_string()))?;
+fn write(study: &Study, folder: &Path) -> Result<Vec<String>, Failure> {
+    let pictures = &study.pictures;
+    let texts = report::texts(&study.report, &study.figures()).map_err(|error| failure(error.to_string()))?;
     let mut files: Vec<(String, Vec<u8>)> = texts.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
     for (picture, png) in pictures.iter().zip(painted(pictures)) {
         let png = png.map_err(|error| failure(format!("the picture {}: {error}", picture.name)))?;

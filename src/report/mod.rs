@@ -9,6 +9,7 @@ mod latex;
 mod markdown;
 pub mod model;
 pub mod plots;
+mod study;
 mod tables;
 mod terminal;
 
@@ -18,6 +19,7 @@ pub use latex::latex;
 pub use markdown::markdown;
 pub use model::Report;
 pub use plots::{Picture, pictures, png};
+pub use study::{ATLAS, NoReport, Study, atlas};
 pub use tables::{Table, tables, verdict_word};
 pub use terminal::terminal;
 

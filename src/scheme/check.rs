@@ -4,7 +4,7 @@
 //! compared with 1 in `f64`, at the valences asked for.
 
 use super::evaluate::Place;
-use super::formula::Condition;
+use super::formula::{Condition, Formula};
 use super::vocabulary::RuleKind;
 use super::{Cases, Entry, Parameter, Rule, RuleBook, Scheme, Weights};
 use crate::fault::{Fault, Faults};
@@ -58,12 +58,69 @@ impl RuleBook {
                         Ok(sum) => sums.push(sum),
                         Err(fault) => faults.push(fault),
                     }
+                    faults.extend(self.check_both_sides(rule, counts).err());
                 }
             }
+        }
+        if faults.is_empty() {
+            faults.extend(self.check_elsewhere(counts, regular));
         }
         let mut seen = BTreeSet::new();
         faults.retain(|fault| seen.insert((fault.span.clone().map(|s| (s.start, s.end)), fault.message.clone())));
         if faults.is_empty() { Ok(sums) } else { Err(self.faults(faults)) }
+    }
+
+    /// The weights sum to 1 at other values of the parameters, too: a scheme file is sound for all of them.
+    fn check_elsewhere(&self, counts: &[usize], regular: usize) -> Option<Fault> {
+        let mut elsewhere = self.clone();
+        let mut moved = Vec::new();
+        for parameter in elsewhere.parameters.iter_mut().filter(|parameter| !parameter.integer) {
+            let probe = self.other_value(parameter)?;
+            parameter.value.formula = Formula::parse(&format!("{probe}")).ok()?;
+            moved.push(format!("{} = {probe}", parameter.name));
+        }
+        if moved.is_empty() {
+            return None;
+        }
+        // a formula may have no value elsewhere; only a wrong sum is a fault
+        let wrong = |rule: &Rule| {
+            let fault = elsewhere.check_sum(rule, counts, regular).err()?;
+            fault.message.contains("sum to").then_some(fault)
+        };
+        let mut fault = elsewhere.rules.values().find_map(wrong)?;
+        fault.message = format!("with {}, {}", moved.join(", "), fault.message);
+        Some(fault.hint("the weights must sum to 1 whatever the values of the parameters"))
+    }
+
+    /// A value of a parameter other than its own, inside its range.
+    fn other_value(&self, parameter: &Parameter) -> Option<f64> {
+        let nowhere = Place::<f64>::at(None, 0);
+        let value = self.evaluate(&parameter.value, &nowhere).ok()?;
+        let Some((low, high)) = &parameter.range else { return Some(value + 0.125) };
+        let (low, high) = (self.evaluate(low, &nowhere).ok()?, self.evaluate(high, &nowhere).ok()?);
+        let end = if high - value > value - low { high } else { low };
+        Some(value + (end - value) * 0.375)
+    }
+
+    /// A crease looks the same from both of its sides: `ring[i]` and `ring[k-i]` weigh the same.
+    fn check_both_sides(&self, rule: &Rule, counts: &[usize]) -> Result<(), Fault> {
+        if rule.kind != RuleKind::VertexCrease {
+            return Ok(());
+        }
+        for count in counts.iter().map(|count| *count as i64) {
+            let place = Place::<f64>::at(rule.kind.variable(), count);
+            let mut ring = vec![0.0; count as usize + 1];
+            for entry in rule.entries.iter().filter(|entry| !entry.position.once) {
+                for (index, weight) in self.weights(entry, ring.len(), &place)? {
+                    ring[index] += weight;
+                }
+            }
+            if ring.iter().zip(ring.iter().rev()).any(|(a, b)| (a - b).abs() > SUM_TOLERANCE) {
+                let fault = Fault::at(rule.span.clone(), "[vertex.crease] tells left from right", format!("at k = {count}"));
+                return Err(fault.hint("ring[0] and ring[k] weigh the same"));
+            }
+        }
+        Ok(())
     }
 
     fn check_parameter(&self, parameter: &Parameter) -> Result<(), Fault> {
@@ -255,9 +312,13 @@ impl RuleBook {
     }
 }
 
-/// The least count that a rule is applied at.
+/// The least count that a rule is applied at; 0 for rules that count nothing.
 fn least_count(kind: RuleKind) -> i64 {
-    if kind == RuleKind::VertexCrease { 1 } else { 3 }
+    match kind.variable() {
+        None => 0,
+        Some("k") => 1,
+        Some(_) => 3,
+    }
 }
 
 /// How many points a class has where the rule's count is `count`.

@@ -1,0 +1,58 @@
+//! Does every claim of every scheme file agree with the analysis?
+#![allow(clippy::unwrap_used)]
+
+use eigenring::report::Study;
+use eigenring::scheme::catalogue;
+use eigenring::scheme::Scheme;
+use eigenring::verdicts::{Decision, Outcome};
+
+#[test]
+fn the_claims_of_the_catalogue_agree() {
+    let valences: Vec<usize> = (3..=12).collect();
+    for listed in catalogue::SCHEMES {
+        let scheme = catalogue::open(listed.id).unwrap().unwrap();
+        let study = Study::of(&scheme, &valences, false, &|| ()).unwrap();
+        assert_eq!(study.report.claims.len(), scheme.claims.len());
+        for claim in &study.report.claims {
+            assert_eq!(claim.outcome, Outcome::Agrees, "{}: {claim:?}", scheme.id);
+        }
+    }
+}
+
+#[test]
+fn a_false_claim_is_seen() {
+    let text = catalogue::scheme("loop").unwrap().text.replace("equals = \"3/8 + cos(2*pi/n)/4\"", "equals = \"1/2\"");
+    let scheme = Scheme::parse("loop", "loop.toml", &text).unwrap();
+    let study = Study::of(&scheme, &[3, 4, 5], false, &|| ()).unwrap();
+    let outcome = |what: &str| study.report.claims.iter().find(|claim| claim.what == what).unwrap().outcome;
+    assert_eq!((outcome("subdominant"), outcome("cup")), (Outcome::Disagrees, Outcome::Agrees));
+}
+
+/// What rests on floating numbers is never called proved or refuted; identities in n are.
+#[test]
+fn only_identities_are_called_proved() {
+    let scheme = catalogue::open("loop").unwrap().unwrap();
+    let study = Study::of(&scheme, &[3, 5, 6], false, &|| ()).unwrap();
+    for verdict in study.report.valences.iter().flat_map(|valence| &valence.verdicts) {
+        let proved = verdict.claim == "affine invariance";
+        assert_eq!(verdict.verdict, if proved { Decision::Proved } else { Decision::Undecided }, "{}", verdict.claim);
+        assert!(!verdict.why.is_empty() && !verdict.source.is_empty());
+    }
+}
+
+/// 3/(8n) at n = 3 ties lambda with the eigenvalue of frequency 0: floating numbers must not decide it.
+#[test]
+fn a_tie_is_left_open() {
+    let text = catalogue::scheme("loop-warren").unwrap().text.replace("[let.beta]", "[let]\nbeta = \"3/(8*n)\"\n[unused]");
+    let start = text.find("[unused]").unwrap();
+    let end = text.find("[vertex]").unwrap();
+    let text = format!("{}{}", &text[..start], &text[end..]);
+    let scheme = Scheme::parse("tie", "tie.toml", &text).unwrap_or_else(|faults| panic!("{faults}"));
+    let study = Study::of(&scheme, &[3, 4], false, &|| ()).unwrap();
+    let evidence = |index: usize| {
+        let verdicts = &study.report.valences[index].verdicts;
+        verdicts.iter().find(|verdict| verdict.claim == "C1").unwrap().evidence
+    };
+    assert_eq!(evidence(0), eigenring::verdicts::Evidence::None);
+    assert_eq!(evidence(1), eigenring::verdicts::Evidence::For);
+}
