@@ -224,12 +224,14 @@ impl<'a, W: Number> Refinement<'a, W> {
     ) -> Result<Row<M::Point, W>, Obstacle> {
         let mut sum = Vec::new();
         for term in self.terms(kind, count)?.iter() {
-            let edge = self.walk(mesh, starts[term.start], &term.walk.moves, kind)?;
-            match term.walk.arrival {
-                Arrival::Origin => sum.push((mesh.origin(edge), term.weight.clone())),
-                Arrival::Target => sum.push((mesh.target(edge), term.weight.clone())),
-                Arrival::NewFace => add_scaled(&mut sum, &self.face_row(mesh, edge)?, &term.weight)?,
-                Arrival::NewEdge => add_scaled(&mut sum, &self.edge_row(mesh, edge)?, &term.weight)?,
+            for (edge, halvings) in self.walk(mesh, starts[term.start], term.walk, kind)? {
+                let weight = (0..halvings).try_fold(term.weight.clone(), |weight, _| weight.over(&W::whole(2)))?;
+                match term.walk.arrival {
+                    Arrival::Origin => sum.push((mesh.origin(edge), weight)),
+                    Arrival::Target => sum.push((mesh.target(edge), weight)),
+                    Arrival::NewFace => add_scaled(&mut sum, &self.face_row(mesh, edge)?, &weight)?,
+                    Arrival::NewEdge => add_scaled(&mut sum, &self.edge_row(mesh, edge)?, &weight)?,
+                }
             }
         }
         collected(sum)
@@ -261,33 +263,71 @@ impl<'a, W: Number> Refinement<'a, W> {
         Ok(terms)
     }
 
+    /// Where a walk leads: half-edges, each with the number of times that the way to it has forked. A fork halves the weight.
     fn walk<M: Connectivity>(
         &self,
         mesh: &M,
         start: M::Edge,
-        moves: &[Move],
+        walk: &Walk,
         kind: RuleKind,
-    ) -> Result<M::Edge, Obstacle> {
+    ) -> Result<Vec<(M::Edge, u32)>, Obstacle> {
+        let mut ends = Vec::with_capacity(walk.ways.len());
+        for way in &walk.ways {
+            let mut branches = vec![(start, walk.ways.len() as u32 - 1)];
+            for step in way {
+                self.step(mesh, &mut branches, *step, kind)?;
+            }
+            ends.extend(branches);
+        }
+        Ok(ends)
+    }
+
+    /// One move of every branch. Straight on over an irregular vertex is half of the regular number of turns, and either
+    /// way round will do: the branch forks, so that left and right stay alike. A turn to the left of straight on is counted
+    /// from the left, one to the right from the right.
+    fn step<M: Connectivity>(
+        &self,
+        mesh: &M,
+        branches: &mut Vec<(M::Edge, u32)>,
+        step: Move,
+        kind: RuleKind,
+    ) -> Result<(), Obstacle> {
         let inside = |edge| if mesh.has_face(edge) { Ok(edge) } else { Err(Obstacle::Boundary(kind.name())) };
-        let mut at = start;
-        for step in moves {
-            at = match step {
+        let over = |edge| {
+            let back = mesh.twin(edge);
+            if mesh.boundary_at(back).is_none() { Ok(back) } else { Err(Obstacle::Boundary(kind.name())) }
+        };
+        let half = self.scheme.regular_valence() / 2;
+        let turned = |edge, turns: usize| (0..turns).fold(edge, |edge, _| mesh.turn(edge));
+        let turned_back = |edge, turns: usize| (0..turns).fold(edge, |edge, _| mesh.turn_back(edge));
+        for index in 0..branches.len() {
+            let (at, forks) = branches[index];
+            branches[index].0 = match step {
                 Move::Next => mesh.next(inside(at)?),
                 Move::Prev => mesh.prev(inside(at)?),
                 Move::Twin => mesh.twin(at),
                 Move::Turn => mesh.turn(at),
+                Move::Left => turned_back(over(at)?, half - 1),
+                Move::Right => turned(over(at)?, half - 1),
                 Move::On => {
-                    let back = mesh.twin(at);
-                    if mesh.boundary_at(back).is_some() {
-                        return Err(Obstacle::Boundary(kind.name()));
+                    let back = over(at)?;
+                    if mesh.valence(back) != 2 * half {
+                        branches[index].1 = forks + 1;
+                        branches.push((turned_back(back, half), forks + 1));
                     }
-                    (0..self.scheme.regular_valence() / 2).fold(back, |edge, _| mesh.turn(edge))
+                    turned(back, half)
                 }
             };
         }
-        Ok(at)
+        if branches.len() > MOST_BRANCHES {
+            return Err(Obstacle::Limit(format!("a walk forks into more than {MOST_BRANCHES} at irregular vertices")));
+        }
+        Ok(())
     }
 }
+
+/// The most branches of one walk.
+const MOST_BRANCHES: usize = 256;
 
 fn add_scaled<P: Copy, W: Number>(sum: &mut Vec<(P, W)>, row: &Row<P, W>, factor: &W) -> Result<(), Trouble> {
     for (point, weight) in row {

@@ -27,7 +27,8 @@ impl OrbitNames {
         let mut names = BTreeMap::new();
         for position in Vocabulary::get().around(kind, Some(&refinement.scheme().mesh)) {
             for walk in position.walks.iter().filter(|_| !position.once) {
-                let Ok(edge) = refinement.walk(&patch, start, &walk.moves, kind) else { continue };
+                let Ok(branches) = refinement.walk(&patch, start, walk, kind) else { continue };
+                let [(edge, _)] = branches[..] else { continue };
                 let point = match walk.arrival {
                     Arrival::Origin => crate::mesh::Connectivity::origin(&patch, edge),
                     Arrival::Target => crate::mesh::Connectivity::target(&patch, edge),

@@ -86,6 +86,10 @@ pub enum Move {
     Turn,
     /// Over the edge and straight on.
     On,
+    /// Over the edge and on, one turn to the left of straight on.
+    Left,
+    /// Over the edge and on, one turn to the right of straight on.
+    Right,
 }
 
 /// The point that a walk ends at.
@@ -101,11 +105,12 @@ pub enum Arrival {
     NewEdge,
 }
 
-/// A way from a half-edge to a point.
+/// A walk from a half-edge to a point. Where two ways lead to one point of a regular mesh, but may part at irregular
+/// vertices, both are taken, each with half of the weight.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Walk {
-    /// The moves, in order.
-    pub moves: Vec<Move>,
+    /// The ways, one or two, each a list of moves.
+    pub ways: Vec<Vec<Move>>,
     /// Where it ends.
     pub arrival: Arrival,
 }
@@ -126,9 +131,11 @@ impl Walk {
             "twin" => Some(Move::Twin),
             "turn" => Some(Move::Turn),
             "on" => Some(Move::On),
+            "left" => Some(Move::Left),
+            "right" => Some(Move::Right),
             _ => None,
         };
-        Some(Walk { moves: words.iter().map(step).collect::<Option<_>>()?, arrival })
+        Some(Walk { ways: vec![words.iter().map(step).collect::<Option<_>>()?], arrival })
     }
 }
 
@@ -247,35 +254,32 @@ impl Vocabulary {
 pub fn address(kind: RuleKind, name: &str) -> Option<Position> {
     let (i, j) = name.split_once(',')?;
     let (i, j): (u32, u32) = (i.trim().parse().ok()?, j.trim().parse().ok()?);
-    if i + j > MAX_REACH {
+    if i.checked_add(j)? > MAX_REACH {
         return None;
     }
-    let moves = match kind {
-        RuleKind::Vertex | RuleKind::EdgeFromIrregularEnd if i >= 1 => straight_and_over(vec![], i, j),
-        RuleKind::Corner if i >= 1 => straight_and_over(vec![Move::Twin, Move::On], i, j),
-        RuleKind::Corner if j >= 1 => straight_and_over(vec![Move::Prev, Move::On], j, 0),
-        RuleKind::Corner => {
-            let origin = Walk { moves: vec![], arrival: Arrival::Origin };
-            return Some(at_address(kind, name, origin));
+    let on = |count: u32| (0..count).map(|_| Move::On);
+    let dual = kind == RuleKind::Corner;
+    // how the two legs start: along the spoke (or back over the corner's edge), and along the next one
+    let (first, second): (&[Move], &[Move]) =
+        if dual { (&[Move::Twin, Move::On], &[Move::Prev, Move::On]) } else { (&[], &[Move::Turn]) };
+    let straight = |start: &[Move], count: u32| start.iter().copied().chain(on(count - 1)).collect::<Vec<Move>>();
+    let bent = |start: &[Move], count: u32, turn: Move, more: u32| {
+        straight(start, count).into_iter().chain([turn]).chain(on(more - 1)).collect::<Vec<Move>>()
+    };
+    let (ways, arrival) = match (kind, i, j) {
+        (RuleKind::Corner, 0, 0) => (vec![vec![]], Arrival::Origin),
+        (RuleKind::Corner, 0, _) => (vec![straight(second, j)], Arrival::Target),
+        (RuleKind::Vertex | RuleKind::EdgeFromIrregularEnd | RuleKind::Corner, 1.., 0) => {
+            (vec![straight(first, i)], Arrival::Target)
+        }
+        (RuleKind::Vertex | RuleKind::EdgeFromIrregularEnd | RuleKind::Corner, 1.., _) => {
+            (vec![bent(first, i, Move::Left, j), bent(second, j, Move::Right, i)], Arrival::Target)
         }
         _ => return None,
     };
-    Some(at_address(kind, name, Walk { moves, arrival: Arrival::Target }))
-}
-
-/// From the half-edge that `moves` lead to: over it and on to its i-th edge; then turned once and j edges over.
-fn straight_and_over(mut moves: Vec<Move>, i: u32, j: u32) -> Vec<Move> {
-    moves.extend((1..i).map(|_| Move::On));
-    if j > 0 {
-        moves.extend([Move::On, Move::Turn]);
-        moves.extend((1..j).map(|_| Move::On));
-    }
-    moves
-}
-
-fn at_address(kind: RuleKind, name: &str, walk: Walk) -> Position {
     let means = format!("the points at address {name}");
-    Position { name: name.to_string(), around: vec![kind], meshes: vec![], once: false, walks: vec![walk], means }
+    let walks = vec![Walk { ways, arrival }];
+    Some(Position { name: name.to_string(), around: vec![kind], meshes: vec![], once: false, walks, means })
 }
 
 #[cfg(test)]
