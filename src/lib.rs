@@ -1,4 +1,60 @@
-//! Eigenring
+//! Eigenring analyses subdivision schemes near their extraordinary points.
+//!
+//! **A scheme is data; everything else reads it.** The pipeline, one stage a module:
+//!
+//! 1. [`scheme`]: a short TOML file says which mesh, which split, and the weights as formulas in the valence n.
+//! 2. [`refine`]: weights meet topology ([`mesh`]): how is each new point made from old ones?
+//! 3. [`analysis`]: the local subdivision matrix at a valence ([`analysis::local`]), its blocks by the discrete Fourier transform
+//!    ([`analysis::blocks`]), their eigenvalues ([`analysis::spectrum`]), limit and tangent masks ([`analysis::masks`]), and the
+//!    characteristic map ([`analysis::charmap`]).
+//! 4. [`verdicts`]: what follows, and from which theorem?
+//! 5. [`report`]: tables and pictures.
+//!
+//! ```
+//! use eigenring::analysis::Analyzer;
+//! use eigenring::refine;
+//! use eigenring::scheme::Scheme;
+//! use eigenring::verdicts::verdicts;
+//!
+//! let text = r#"
+//!     name  = "Loop"
+//!     mesh  = "triangles"
+//!     split = "1-to-4"
+//!     [let]
+//!     beta = "(5/8 - (3/8 + cos(2*pi/n)/4)^2)/n"
+//!     [vertex]
+//!     centre = "1 - n*beta"
+//!     ring   = "beta"
+//!     [edge]
+//!     ends     = "3/8"
+//!     opposite = "1/8"
+//! "#;
+//! let scheme = Scheme::parse("loop", "loop.toml", text)?;
+//! let sums = refine::check(&scheme, &[5])?;               // every fault of the file, if there is one
+//!
+//! let analyzer = Analyzer::new(&scheme)?;
+//! let analysis = analyzer.at(5)?;
+//! assert_eq!(analysis.local.size(), 1 + 3 * 5);           // the full neighbourhood
+//!
+//! let lambda = analysis.spectrum.subdominant().ok_or("no eigenvalue")?;
+//! assert_eq!(lambda.frequency, 1);
+//! assert!((lambda.value.re - (5.0 + 5_f64.sqrt()) / 16.0).abs() < 1e-15);
+//!
+//! let mask = analysis.limit_mask.as_ref().ok_or("no limit mask")?;
+//! let sum: f64 = mask.weights(&analysis.local).iter().map(|(_, weight)| weight).sum();
+//! assert!((sum - 1.0).abs() < 1e-15);
+//!
+//! for verdict in verdicts(&analysis, &sums) {
+//!     assert!(!verdict.why.is_empty());                   // proved, refuted or undecided, and why
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! All numbers are approximate (`f64`) unless they are said to be proved. The theory, with sources, is in `docs/theory.md`.
+
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
 pub mod analysis;
 pub mod fault;
 pub mod mesh;

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use eigenring::report::Study;
-use eigenring::scheme::catalogue;
 use eigenring::scheme::Scheme;
+use eigenring::scheme::catalogue;
 use eigenring::verdicts::{Decision, Outcome};
 
 #[test]
@@ -43,7 +43,8 @@ fn only_identities_are_called_proved() {
 /// 3/(8n) at n = 3 ties lambda with the eigenvalue of frequency 0: floating numbers must not decide it.
 #[test]
 fn a_tie_is_left_open() {
-    let text = catalogue::scheme("loop-warren").unwrap().text.replace("[let.beta]", "[let]\nbeta = \"3/(8*n)\"\n[unused]");
+    let text =
+        catalogue::scheme("loop-warren").unwrap().text.replace("[let.beta]", "[let]\nbeta = \"3/(8*n)\"\n[unused]");
     let start = text.find("[unused]").unwrap();
     let end = text.find("[vertex]").unwrap();
     let text = format!("{}{}", &text[..start], &text[end..]);

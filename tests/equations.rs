@@ -147,7 +147,8 @@ fn the_dense_spectrum_is_that_of_the_blocks() {
         for e in &analysis.spectrum.eigenvalues {
             for _ in 0..e.multiplicity(analysis.valence) / e.cluster {
                 let distance = |z: &Complex64| (z - e.value).norm();
-                let nearest = (0..left.len()).min_by(|a, b| distance(&left[*a]).total_cmp(&distance(&left[*b]))).unwrap();
+                let nearest =
+                    (0..left.len()).min_by(|a, b| distance(&left[*a]).total_cmp(&distance(&left[*b]))).unwrap();
                 assert!(distance(&left[nearest]) < 5e-4, "{at}: {e:?} and {}", left[nearest]);
                 left.swap_remove(nearest);
                 count += 1;
@@ -172,8 +173,14 @@ fn vectors_keep_their_equations() {
             let right = vector(&spectrum.right_vector(blocks, cores, e).unwrap().0);
             let left = vector(&spectrum.left_vector(blocks, cores, e).unwrap().0);
             assert!((&block * &right - &right * e.value).camax() < 1e-14 * right.camax(), "{at}: right of {e:?}");
-            assert!((block.transpose() * &left - &left * e.value).camax() < 1e-14 * left.camax(), "{at}: left of {e:?}");
-            assert!(left.dot(&right).norm() > 1e-6, "{at}: the vectors of a simple eigenvalue are not orthogonal, {e:?}");
+            assert!(
+                (block.transpose() * &left - &left * e.value).camax() < 1e-14 * left.camax(),
+                "{at}: left of {e:?}"
+            );
+            assert!(
+                left.dot(&right).norm() > 1e-6,
+                "{at}: the vectors of a simple eigenvalue are not orthogonal, {e:?}"
+            );
             seen += 1;
         }
         assert!(seen >= 2, "{at}");

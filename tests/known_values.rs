@@ -86,7 +86,10 @@ fn misses(scheme: &Scheme, known: &[Known]) -> Vec<String> {
         for (n, expected, tolerance) in value.expected() {
             let found = analyzer.at(n).ok().and_then(|analysis| quantity(&analyzer, &analysis, &value.what));
             if found.is_none_or(|found| (found - expected).abs() > tolerance) {
-                misses.push(format!("{} {} at n = {n}: {found:?}, not {expected} ({})", scheme.id, value.what, value.source));
+                misses.push(format!(
+                    "{} {} at n = {n}: {found:?}, not {expected} ({})",
+                    scheme.id, value.what, value.source
+                ));
             }
         }
     }

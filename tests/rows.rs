@@ -50,8 +50,26 @@ fn modified_butterfly_takes_its_cases_from_an_irregular_end() {
 fn between_two_irregular_ends_the_results_are_averaged() {
     // an icosahedron: every vertex has valence 5
     let faces: [[usize; 3]; 20] = [
-        [0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5], [0, 5, 1], [1, 6, 2], [2, 6, 7], [2, 7, 3], [3, 7, 8], [3, 8, 4],
-        [4, 8, 9], [4, 9, 5], [5, 9, 10], [5, 10, 1], [1, 10, 6], [11, 7, 6], [11, 8, 7], [11, 9, 8], [11, 10, 9], [11, 6, 10],
+        [0, 1, 2],
+        [0, 2, 3],
+        [0, 3, 4],
+        [0, 4, 5],
+        [0, 5, 1],
+        [1, 6, 2],
+        [2, 6, 7],
+        [2, 7, 3],
+        [3, 7, 8],
+        [3, 8, 4],
+        [4, 8, 9],
+        [4, 9, 5],
+        [5, 9, 10],
+        [5, 10, 1],
+        [1, 10, 6],
+        [11, 7, 6],
+        [11, 8, 7],
+        [11, 9, 8],
+        [11, 10, 9],
+        [11, 6, 10],
     ];
     let faces: Vec<Vec<usize>> = faces.iter().map(|face| face.to_vec()).collect();
     let mesh = HalfEdgeMesh::from_faces(12, &faces).unwrap();

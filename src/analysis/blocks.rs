@@ -92,7 +92,9 @@ impl Blocks {
             })
             .collect();
         let pairs = mirrors.iter().enumerate().filter(|(t, (mirror, _))| t <= mirror);
-        let node = |(t, (mirror, _)): (usize, &(usize, i32))| if t == *mirror { Node::Fixed(t) } else { Node::Pair(t, *mirror) };
+        let node = |(t, (mirror, _)): (usize, &(usize, i32))| {
+            if t == *mirror { Node::Fixed(t) } else { Node::Pair(t, *mirror) }
+        };
         let centre = local.centre.as_ref().map(|_| Node::Centre);
         let mut planner = FftPlannerScalar::new();
         Blocks {

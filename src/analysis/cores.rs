@@ -35,7 +35,8 @@ impl Cores {
         for (a, component) in components.iter().enumerate() {
             depends[a][a] = true;
             for b in 0..a {
-                let direct = component.iter().any(|to| components[b].iter().any(|from| graph.contains_edge(*to, *from)));
+                let direct =
+                    component.iter().any(|to| components[b].iter().any(|from| graph.contains_edge(*to, *from)));
                 if direct {
                     let below = depends[b].clone();
                     depends[a].iter_mut().zip(below).for_each(|(own, other)| *own |= other);
@@ -57,11 +58,17 @@ impl Cores {
 
     /// The nodes that the core is made of, through any number of steps: where left vectors of its eigenvalues live.
     pub fn below(&self, core: usize, frequency: usize) -> Vec<Node> {
-        (0..self.cores.len()).filter(|other| self.depends[core][*other]).flat_map(|c| self.nodes(c, frequency)).collect()
+        (0..self.cores.len())
+            .filter(|other| self.depends[core][*other])
+            .flat_map(|c| self.nodes(c, frequency))
+            .collect()
     }
 
     /// The nodes that are made of the core, through any number of steps: where right vectors of its eigenvalues live.
     pub fn above(&self, core: usize, frequency: usize) -> Vec<Node> {
-        (0..self.cores.len()).filter(|other| self.depends[*other][core]).flat_map(|c| self.nodes(c, frequency)).collect()
+        (0..self.cores.len())
+            .filter(|other| self.depends[*other][core])
+            .flat_map(|c| self.nodes(c, frequency))
+            .collect()
     }
 }

@@ -66,7 +66,8 @@ impl Mask {
     /// Every point of the neighbourhood whose orbit has a part in the mask, with its weight; the centre first.
     pub fn weights(&self, local: &LocalMatrix) -> Vec<(Label, f64)> {
         let roots = RootsOfUnity::new(local.valence());
-        let centre = self.centre.filter(|weight| *weight != 0.0).map(|weight| (Label { sector: 0, i: 0, j: 0 }, weight));
+        let centre =
+            self.centre.filter(|weight| *weight != 0.0).map(|weight| (Label { sector: 0, i: 0, j: 0 }, weight));
         let mut weights: Vec<(Label, f64)> = centre.into_iter().collect();
         for (orbit, (i, j)) in local.orbits.iter().enumerate() {
             if self.amplitudes[orbit] != Complex64::ZERO {

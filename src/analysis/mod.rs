@@ -191,12 +191,7 @@ pub struct MapPicture {
     pub samples: Option<(i32, Vec<Sample>)>,
 }
 
-fn classical(
-    rows: &PatchRows,
-    local: &LocalMatrix,
-    cores: &Cores,
-    spectrum: &Spectrum,
-) -> Result<Classical, Obstacle> {
+fn classical(rows: &PatchRows, local: &LocalMatrix, cores: &Cores, spectrum: &Spectrum) -> Result<Classical, Obstacle> {
     let seed: BTreeSet<Orbit> = if local.centre.is_some() { [(0, 0), (1, 0)].into() } else { [(0, 0)].into() };
     let smallest = closure(rows, seed)?;
     let inside = |e: &&Eigenvalue| {

@@ -29,9 +29,7 @@ impl Tile {
         let (i, j) = (2 * self.i, 2 * self.j);
         let tile = |di: i32, dj: i32, down: bool| Tile { i: i + di, j: j + dj, down };
         match (lattice, self.down) {
-            (Lattice::Triangles, false) => {
-                [tile(0, 0, false), tile(1, 0, false), tile(0, 1, false), tile(0, 0, true)]
-            }
+            (Lattice::Triangles, false) => [tile(0, 0, false), tile(1, 0, false), tile(0, 1, false), tile(0, 0, true)],
             (Lattice::Triangles, true) => [tile(1, 1, false), tile(1, 0, true), tile(0, 1, true), tile(1, 1, true)],
             _ => [tile(0, 0, false), tile(1, 0, false), tile(0, 1, false), tile(1, 1, false)],
         }
@@ -113,7 +111,8 @@ impl Influence {
         orbits.extend(last);
         orbits.insert((0, 0));
         let closed = closure(rows, orbits)?;
-        let mut orbits: Vec<Orbit> = closed.into_iter().filter(|orbit| !lattice.has_centre() || *orbit != (0, 0)).collect();
+        let mut orbits: Vec<Orbit> =
+            closed.into_iter().filter(|orbit| !lattice.has_centre() || *orbit != (0, 0)).collect();
         orbits.sort_by(|a, b| order(lattice, *a, *b));
         Ok(orbits)
     }

@@ -230,7 +230,8 @@ fn eigenvalues_of(matrix: DMatrix<f64>) -> Result<Vec<Complex64>, Obstacle> {
         2 => Ok(roots_of_quadratic(matrix[(0, 0)], matrix[(0, 1)], matrix[(1, 0)], matrix[(1, 1)])),
         3 => {
             let small = Matrix3::from_iterator(matrix.iter().copied());
-            let schur = DEFLATIONS.iter().find_map(|eps| small.try_schur(*eps, MAX_SWEEPS)).ok_or_else(no_convergence)?;
+            let schur =
+                DEFLATIONS.iter().find_map(|eps| small.try_schur(*eps, MAX_SWEEPS)).ok_or_else(no_convergence)?;
             Ok(schur.complex_eigenvalues().iter().map(|value| newton_step(&small, *value)).collect())
         }
         _ => {

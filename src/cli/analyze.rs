@@ -108,7 +108,8 @@ fn write(study: &Study, folder: &Path) -> Result<Vec<String>, Failure> {
         files.push((format!("{}.svg", picture.name), picture.svg.clone().into_bytes()));
         files.push((format!("{}.png", picture.name), png));
     }
-    let trouble = |what: &Path, error: std::io::Error| failure(format!("`{}` can't be written: {error}", what.display()));
+    let trouble =
+        |what: &Path, error: std::io::Error| failure(format!("`{}` can't be written: {error}", what.display()));
     fs::create_dir_all(folder).map_err(|error| trouble(folder, error))?;
     for (name, bytes) in &files {
         let path = folder.join(name);

@@ -41,11 +41,15 @@ fn listing() -> Result<String, Failure> {
             let kind = if scheme.is_interpolating() { "interpolating" } else { "approximating" };
             let split = if scheme.is_dual() { "vertex split" } else { "face split" };
             let parameters: Vec<&str> = scheme.book.parameters.iter().map(|p| p.name.as_str()).collect();
-            let set = if parameters.is_empty() { String::new() } else { format!(", parameter {}", parameters.join(", ")) };
-            let _ = writeln!(text, "  {:<26} {} ({}, {split}, {kind}{set})", scheme.id, scheme.book.title, scheme.split);
+            let set =
+                if parameters.is_empty() { String::new() } else { format!(", parameter {}", parameters.join(", ")) };
+            let _ =
+                writeln!(text, "  {:<26} {} ({}, {split}, {kind}{set})", scheme.id, scheme.book.title, scheme.split);
         }
     }
-    text.push_str("\n`eigenring schemes NAME` prints a file, `eigenring new MINE --like NAME` starts one of your own.\n");
+    text.push_str(
+        "\n`eigenring schemes NAME` prints a file, `eigenring new MINE --like NAME` starts one of your own.\n",
+    );
     Ok(text)
 }
 
@@ -63,7 +67,8 @@ pub(crate) struct New {
 impl New {
     pub(crate) fn run(self) -> Result<(), Failure> {
         let listed = catalogue::scheme(&self.like);
-        let listed = listed.ok_or_else(|| failure(format!("there is no scheme `{}`; `eigenring schemes` lists them", self.like)))?;
+        let listed = listed
+            .ok_or_else(|| failure(format!("there is no scheme `{}`; `eigenring schemes` lists them", self.like)))?;
         let path = PathBuf::from(format!("{}.toml", self.name.trim_end_matches(".toml")));
         let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         if title.is_empty() || title.contains(['"', '\\']) || title.chars().any(char::is_control) {
@@ -80,7 +85,8 @@ impl New {
 
 /// The file of the catalogue under a new name, with a word on what may be changed, and without its claims.
 fn starter(text: &str, title: &str, like: &str) -> String {
-    let body: Vec<&str> = text.split("[[claims]]").next().unwrap_or(text).lines().filter(|line| !line.starts_with('#')).collect();
+    let body: Vec<&str> =
+        text.split("[[claims]]").next().unwrap_or(text).lines().filter(|line| !line.starts_with('#')).collect();
     let named: Vec<String> = body
         .iter()
         .map(|line| if line.starts_with("name ") { format!("name     = \"{title}\"") } else { (*line).to_string() })

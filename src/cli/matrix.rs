@@ -13,10 +13,12 @@ use std::fmt::Write;
 
 /// Prints S_n, or the block B_k of it, with its labels.
 #[derive(Args)]
-#[command(after_help = "Labels: c is the centre; s:i,j is the point that lies i edges straight along spoke s and, turned \
+#[command(
+    after_help = "Labels: c is the centre; s:i,j is the point that lies i edges straight along spoke s and, turned \
     counter-clockwise once, j edges over. A block acts on y, where x at (s; orbit t) = y_t exp(2 pi i k s/n).\n\n\
     Examples:\n  eigenring matrix loop --valence 5\n  eigenring matrix catmull-clark -n 5 --block 1\n  \
-    eigenring matrix doo-sabin -n 1000 --format mtx > doo-sabin.mtx")]
+    eigenring matrix doo-sabin -n 1000 --format mtx > doo-sabin.mtx"
+)]
 pub(crate) struct Matrix {
     /// A scheme of the catalogue, or the path of a scheme file
     scheme: String,
@@ -57,14 +59,20 @@ impl Matrix {
             return Err(failure(format!("the valence must be from 3 to {MAX_VALENCE}, not {}", self.valence)));
         }
         if let Some(k) = self.block.filter(|k| *k >= self.valence) {
-            return Err(failure(format!("the blocks at n = {} are 0 to {}; there is no block {k}", self.valence, self.valence - 1)));
+            return Err(failure(format!(
+                "the blocks at n = {} are 0 to {}; there is no block {k}",
+                self.valence,
+                self.valence - 1
+            )));
         }
         let (scheme, _) = open_checked(&self.scheme, &self.set, &[self.valence])?;
         let analyzer = Analyzer::new(&scheme).map_err(|obstacle| explain(&scheme, obstacle))?;
         let local = analyzer.local_matrix(self.valence).map_err(|obstacle| explain(&scheme, obstacle))?;
         if self.block.is_none() && self.format != Format::Mtx && local.size() > MAX_DENSE {
             let message = format!("the matrix has {} rows, more than {MAX_DENSE}", local.size());
-            return Err(failure(format!("{message}\n  help: print it sparsely with --format mtx, or a block with --block K")));
+            return Err(failure(format!(
+                "{message}\n  help: print it sparsely with --format mtx, or a block with --block K"
+            )));
         }
         let matrix = match self.block {
             Some(k) => block(&local, k),
@@ -84,7 +92,11 @@ impl Matrix {
 fn whole(local: &LocalMatrix) -> Labelled {
     let label = |row: usize| {
         let label = local.label(row);
-        if row == 0 && local.centre.is_some() { "c".to_string() } else { format!("{}:{},{}", label.sector, label.i, label.j) }
+        if row == 0 && local.centre.is_some() {
+            "c".to_string()
+        } else {
+            format!("{}:{},{}", label.sector, label.i, label.j)
+        }
     };
     let row = |row: usize| local.row(row).into_iter().map(|(c, weight)| (c, Complex64::new(weight, 0.0))).collect();
     let size = local.size();
@@ -115,7 +127,8 @@ impl Labelled {
 
 fn text(matrix: &Labelled) -> String {
     let cell = |value: Complex64| if value == Complex64::ZERO { ".".to_string() } else { matrix.cell(value, 6) };
-    let rows: Vec<Vec<String>> = (0..matrix.labels.len()).map(|r| matrix.dense(r).into_iter().map(cell).collect()).collect();
+    let rows: Vec<Vec<String>> =
+        (0..matrix.labels.len()).map(|r| matrix.dense(r).into_iter().map(cell).collect()).collect();
     let longest = rows.iter().flatten().chain(&matrix.labels).map(|cell| cell.chars().count()).max().unwrap_or(1);
     let first = matrix.labels.iter().map(|label| label.chars().count()).max().unwrap_or(1);
     let line = |head: &str, row: &[String]| {
@@ -127,7 +140,11 @@ fn text(matrix: &Labelled) -> String {
 }
 
 fn number(matrix: &Labelled, value: Complex64) -> String {
-    if matrix.is_complex && value.im != 0.0 { format!("{}{:+}i", value.re, value.im) } else { (value.re + 0.0).to_string() }
+    if matrix.is_complex && value.im != 0.0 {
+        format!("{}{:+}i", value.re, value.im)
+    } else {
+        (value.re + 0.0).to_string()
+    }
 }
 
 fn csv(matrix: &Labelled) -> String {
@@ -142,7 +159,8 @@ fn csv(matrix: &Labelled) -> String {
 
 fn latex(matrix: &Labelled, name: &str) -> String {
     let label = |label: &String| format!("\\scriptstyle {label}");
-    let mut text = format!("% {name}, approximate (f64)\n\\[\n\\begin{{array}}{{r|{}}}\n", "r".repeat(matrix.labels.len()));
+    let mut text =
+        format!("% {name}, approximate (f64)\n\\[\n\\begin{{array}}{{r|{}}}\n", "r".repeat(matrix.labels.len()));
     let _ = writeln!(text, " & {} \\\\ \\hline", matrix.labels.iter().map(label).collect::<Vec<_>>().join(" & "));
     for (row, own) in matrix.labels.iter().enumerate() {
         let cell = |value: Complex64| if value == Complex64::ZERO { "0".to_string() } else { matrix.cell(value, 6) };
@@ -153,9 +171,13 @@ fn latex(matrix: &Labelled, name: &str) -> String {
 }
 
 fn json_text(matrix: &Labelled, scheme: &str, n: usize, block: Option<usize>) -> String {
-    let value = |value: Complex64| if matrix.is_complex { json!([value.re + 0.0, value.im + 0.0]) } else { json!(value.re + 0.0) };
-    let rows: Vec<_> = (0..matrix.labels.len()).map(|row| matrix.dense(row).into_iter().map(value).collect::<Vec<_>>()).collect();
-    let document = json!({ "format": 1, "scheme": scheme, "n": n, "block": block, "labels": matrix.labels, "rows": rows });
+    let value = |value: Complex64| {
+        if matrix.is_complex { json!([value.re + 0.0, value.im + 0.0]) } else { json!(value.re + 0.0) }
+    };
+    let rows: Vec<_> =
+        (0..matrix.labels.len()).map(|row| matrix.dense(row).into_iter().map(value).collect::<Vec<_>>()).collect();
+    let document =
+        json!({ "format": 1, "scheme": scheme, "n": n, "block": block, "labels": matrix.labels, "rows": rows });
     format!("{document}\n")
 }
 

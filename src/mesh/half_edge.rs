@@ -158,7 +158,8 @@ impl Builder {
 
     /// Links the boundary and checks that each vertex is one fan.
     fn close(mut self) -> Result<HalfEdgeMesh, NotAMesh> {
-        let boundary: Vec<u32> = (0..self.mesh.face.len() as u32).filter(|e| self.mesh.face[*e as usize] == NO_FACE).collect();
+        let boundary: Vec<u32> =
+            (0..self.mesh.face.len() as u32).filter(|e| self.mesh.face[*e as usize] == NO_FACE).collect();
         let mut leaving = BTreeMap::new();
         for edge in &boundary {
             let vertex = self.mesh.origin[*edge as usize];

@@ -278,8 +278,8 @@ mod tests {
                     assert_eq!(patch.turn_back(patch.turn(edge)), edge, "{here}");
                     assert_eq!(patch.around_vertex(edge).len(), patch.valence(edge), "{here}");
                     let face = patch.around_face(edge);
-                    let central = lattice == Lattice::Dual
-                        && face.iter().all(|edge| patch.origin(*edge).orbit() == (0, 0));
+                    let central =
+                        lattice == Lattice::Dual && face.iter().all(|edge| patch.origin(*edge).orbit() == (0, 0));
                     centre_faces += usize::from(central);
                     assert_eq!(face.len(), if central { valence } else { corners }, "{here}");
                     let mirrored = patch.mirrored(patch.mirrored(patch.origin(edge)));
@@ -325,7 +325,8 @@ mod tests {
                 Site::Vertex(at) => assert_eq!(double(patch.origin(at)), fine),
                 Site::Edge(at) => {
                     let (a, b) = (double(patch.origin(at)), double(patch.target(at)));
-                    let neighbours: Vec<Label> = patch.around_vertex(patch.edge(fine, 0)).iter().map(|e| patch.target(*e)).collect();
+                    let neighbours: Vec<Label> =
+                        patch.around_vertex(patch.edge(fine, 0)).iter().map(|e| patch.target(*e)).collect();
                     assert!(neighbours.contains(&a) && neighbours.contains(&b), "{fine:?}");
                 }
                 Site::Face(at) => assert_eq!(patch.around_face(at).len(), 4),

@@ -14,7 +14,7 @@ fn finite(value: f64) -> Result<f64, Trouble> {
 }
 
 fn binomial(n: f64, k: f64) -> Result<f64, Trouble> {
-    if n.fract() != 0.0 || k.fract() != 0.0 || n < 0.0 || n > MAX_BINOM {
+    if n.fract() != 0.0 || k.fract() != 0.0 || !(0.0..=MAX_BINOM).contains(&n) {
         return Err(Trouble::Domain("binom(a, b) takes whole numbers, 0 <= a <= 1000"));
     }
     if k < 0.0 || k > n {

@@ -75,7 +75,8 @@ pub fn check(scheme: &Scheme, valences: &[usize]) -> Result<Vec<RuleSum>, Faults
         (Ok(sums), Ok(())) => Ok(sums),
         (Ok(_), Err(faults)) | (Err(faults), Ok(())) => Err(faults),
         (Err(mut faults), Err(more)) => {
-            let new = more.faults.into_iter().filter(|fault| faults.faults.iter().all(|known| known.span != fault.span));
+            let new =
+                more.faults.into_iter().filter(|fault| faults.faults.iter().all(|known| known.span != fault.span));
             faults.faults.extend(new.collect::<Vec<_>>());
             Err(faults)
         }

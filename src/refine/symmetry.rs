@@ -90,7 +90,8 @@ fn told_by(refinement: &Refinement<f64>, patch: &Patch, site: Site) -> (RuleKind
         Site::Face(_) => RuleKind::Face,
         Site::Corner(_) => RuleKind::Corner,
         Site::Edge(edge) => {
-            let irregular = [edge, patch.twin(edge)].iter().any(|half| patch.valence(*half) != scheme.regular_valence());
+            let irregular =
+                [edge, patch.twin(edge)].iter().any(|half| patch.valence(*half) != scheme.regular_valence());
             let from_end = RuleKind::EdgeFromIrregularEnd;
             if irregular && scheme.book.rules.contains_key(&from_end) { from_end } else { RuleKind::Edge }
         }
@@ -105,7 +106,8 @@ fn agree(left: &Row<Label, f64>, right: &Row<Label, f64>) -> bool {
             (None, None) => return true,
             (Some((a, w)), Some((b, v))) if a == b => {
                 let difference = w - v;
-                (left.next(), right.next());
+                left.next();
+                right.next();
                 difference
             }
             (Some((a, w)), other) if other.is_none_or(|(b, _)| a < b) => {

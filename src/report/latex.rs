@@ -1,9 +1,9 @@
 //! The report as a LaTeX document that compiles as it stands (booktabs, longtable).
 
+use super::Figure;
 use super::markdown::introduction;
 use super::model::Report;
 use super::tables::{Table, tables};
-use super::Figure;
 use std::fmt::Write;
 
 const HEAD: &str = r"\documentclass[10pt]{article}
@@ -26,7 +26,8 @@ pub fn latex(report: &Report, figures: &[Figure]) -> String {
         let _ = writeln!(text, "\\picture{{{}}}{{{}}}", figure.name, escaped(&figure.caption));
     }
     for table in tables(report) {
-        let _ = write!(text, "\n\\subsection*{{{}}}\n{}\n\n{}", escaped(&table.title), escaped(&table.note), rows(&table));
+        let _ =
+            write!(text, "\n\\subsection*{{{}}}\n{}\n\n{}", escaped(&table.title), escaped(&table.note), rows(&table));
     }
     text.push_str("\n\\begin{thebibliography}{99}\n");
     for source in &report.sources {
@@ -46,9 +47,12 @@ fn rows(table: &Table) -> String {
     let wide: Vec<bool> = (0..count).map(|column| longest(column) > 40).collect();
     let narrow_characters: usize = (0..count).filter(|c| !wide[*c]).map(|c| longest(c).max(6)).sum();
     let share = (0.92 - 0.0105 * narrow_characters as f64).max(0.3) / wide.iter().filter(|w| **w).count().max(1) as f64;
-    let column = |wide: &bool| if *wide { format!(">{{\\raggedright\\arraybackslash}}p{{{share:.2}\\textwidth}}") } else { "l".to_string() };
+    let column = |wide: &bool| {
+        if *wide { format!(">{{\\raggedright\\arraybackslash}}p{{{share:.2}\\textwidth}}") } else { "l".to_string() }
+    };
     let spec: String = wide.iter().map(column).collect();
-    let line = |row: &Vec<String>| format!("{} \\\\\n", row.iter().map(|cell| escaped(cell)).collect::<Vec<_>>().join(" & "));
+    let line =
+        |row: &Vec<String>| format!("{} \\\\\n", row.iter().map(|cell| escaped(cell)).collect::<Vec<_>>().join(" & "));
     let body: String = table.rows.iter().map(line).collect();
     let size = if count > 7 { "\\scriptsize" } else { "\\footnotesize" };
     format!(

@@ -1,8 +1,8 @@
 //! The report as Markdown.
 
+use super::Figure;
 use super::model::Report;
 use super::tables::{Table, tables};
-use super::Figure;
 use std::fmt::Write;
 
 /// The report; pictures are linked by file name where they are given.
@@ -62,8 +62,10 @@ fn push_figure(text: &mut String, figure: &Figure) {
 
 /// The table's rows in Markdown's form, columns padded so that the text reads well as it stands.
 fn rows(table: &Table) -> String {
-    let cells: Vec<Vec<String>> =
-        std::iter::once(&table.head).chain(&table.rows).map(|row| row.iter().map(|cell| escaped(cell)).collect()).collect();
+    let cells: Vec<Vec<String>> = std::iter::once(&table.head)
+        .chain(&table.rows)
+        .map(|row| row.iter().map(|cell| escaped(cell)).collect())
+        .collect();
     let width = |column: usize| cells.iter().map(|row| row[column].chars().count()).max().unwrap_or(0).max(3);
     let widths: Vec<usize> = (0..table.head.len()).map(width).collect();
     let line = |row: &Vec<String>| {
@@ -85,7 +87,8 @@ fn conditions(report: &Report) -> String {
     let mut text = String::new();
     let Some(first) = report.valences.first() else { return text };
     for (index, verdict) in first.verdicts.iter().enumerate() {
-        let _ = writeln!(text, "- **{}**: {}. [{}]", verdict.claim, escaped(&verdict.states), verdict.source.join(", "));
+        let _ =
+            writeln!(text, "- **{}**: {}. [{}]", verdict.claim, escaped(&verdict.states), verdict.source.join(", "));
         for valence in &report.valences {
             let Some(own) = valence.verdicts.get(index) else { continue };
             let _ = writeln!(text, "  - n = {}: {}; {}", valence.n, escaped(&own.value), escaped(&own.why.join("; ")));

@@ -224,10 +224,20 @@ impl Report {
     ///
     /// # Errors
     /// When a claimed value can't be computed.
-    pub fn new(scheme: &Scheme, analyzer: &Analyzer, analyses: Vec<Analysis>, sums: &[RuleSum]) -> Result<Report, Obstacle> {
+    pub fn new(
+        scheme: &Scheme,
+        analyzer: &Analyzer,
+        analyses: Vec<Analysis>,
+        sums: &[RuleSum],
+    ) -> Result<Report, Obstacle> {
         let names = OrbitNames::of(&Refinement::<f64>::new(scheme, None), analyzer.lattice());
-        let judged: Vec<(Analysis, Vec<Verdict>)> =
-            analyses.into_iter().map(|analysis| { let found = verdicts(&analysis, sums); (analysis, found) }).collect();
+        let judged: Vec<(Analysis, Vec<Verdict>)> = analyses
+            .into_iter()
+            .map(|analysis| {
+                let found = verdicts(&analysis, sums);
+                (analysis, found)
+            })
+            .collect();
         let claims = check_claims(scheme, &judged, &|name| names.orbit(name))?;
         let valences: Vec<ValenceReport> =
             judged.iter().map(|(analysis, verdicts)| valence_report(analysis, verdicts, &names)).collect();
@@ -244,7 +254,12 @@ impl Report {
                 interpolating: scheme.is_interpolating(),
                 regular_valence: scheme.regular_valence(),
             },
-            parameters: scheme.book.parameters.iter().map(|p| (p.name.clone(), p.value.formula.text().to_string())).collect(),
+            parameters: scheme
+                .book
+                .parameters
+                .iter()
+                .map(|p| (p.name.clone(), p.value.formula.text().to_string()))
+                .collect(),
             sources: keys,
             valences,
             claims,
@@ -292,9 +307,15 @@ fn valence_report(analysis: &Analysis, verdicts: &[Verdict], names: &OrbitNames)
             formula: None,
         }),
         subsubdominant: subsubdominant_report(analysis),
-        curvature: CurvatureReport { cup: classical(analysis.classical.cup), saddle: classical(analysis.classical.saddle) },
+        curvature: CurvatureReport {
+            cup: classical(analysis.classical.cup),
+            saddle: classical(analysis.classical.saddle),
+        },
         limit_mask: analysis.limit_mask.as_ref().map(|mask| mask_report(mask, analysis, names)),
-        tangent_masks: analysis.tangent_masks.as_ref().map(|masks| masks.each_ref().map(|m| mask_report(m, analysis, names))),
+        tangent_masks: analysis
+            .tangent_masks
+            .as_ref()
+            .map(|masks| masks.each_ref().map(|m| mask_report(m, analysis, names))),
         characteristic_map: net_report(analysis),
         residual: ResidualReport { bound: bound(residual), vectors },
         verdicts: verdicts.to_vec(),

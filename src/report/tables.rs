@@ -55,7 +55,8 @@ fn or_dash(value: Option<f64>) -> String {
 
 fn weights(report: &Report) -> Table {
     let longest = report.valences.iter().map(|v| &v.rule_weights).max_by_key(|weights| weights.len());
-    let mut names: Vec<String> = longest.into_iter().flatten().map(|(name, _)| name.clone()).take(MOST_FREQUENCIES).collect();
+    let mut names: Vec<String> =
+        longest.into_iter().flatten().map(|(name, _)| name.clone()).take(MOST_FREQUENCIES).collect();
     for (name, _) in report.valences.iter().flat_map(|v| &v.rule_weights) {
         if !names.contains(name) && names.len() < MOST_FREQUENCIES {
             names.push(name.clone());
@@ -86,7 +87,18 @@ fn weights(report: &Report) -> Table {
 fn overview(report: &Report) -> Table {
     let note = "λ is the largest eigenvalue after 1 and μ the next, over the full neighbourhood of the size given; cup and saddle \
                 are Doo and Sabin's eigenvalues, of frequencies 0 and 2 on the smallest invariant neighbourhood.";
-    let head = words(&["n", "size", "λ", "of frequency", "|μ|", "of frequencies", "|μ|/λ²", "curvature", "cup/λ²", "saddle/λ²"]);
+    let head = words(&[
+        "n",
+        "size",
+        "λ",
+        "of frequency",
+        "|μ|",
+        "of frequencies",
+        "|μ|/λ²",
+        "curvature",
+        "cup/λ²",
+        "saddle/λ²",
+    ]);
     let row = |v: &ValenceReport| {
         let mu = v.subsubdominant.as_ref();
         let ratio = mu.and_then(|mu| mu.ratio.map(|ratio| curvature_class(ratio, mu.approx_error).words()));
@@ -112,7 +124,11 @@ fn list(numbers: &[usize]) -> String {
 }
 
 fn complex([re, im]: [f64; 2]) -> String {
-    if im == 0.0 { digits(re) } else { format!("{} {} {}i", digits(re), if im < 0.0 { "-" } else { "+" }, digits(im.abs())) }
+    if im == 0.0 {
+        digits(re)
+    } else {
+        format!("{} {} {}i", digits(re), if im < 0.0 { "-" } else { "+" }, digits(im.abs()))
+    }
 }
 
 fn by_frequency(report: &Report) -> Table {
@@ -133,7 +149,8 @@ fn by_frequency(report: &Report) -> Table {
 fn all_eigenvalues(report: &Report) -> Table {
     let rows = report.valences.iter().flat_map(|v| {
         (0..=v.n / 2).take(MOST_FREQUENCIES).map(|k| {
-            let own: Vec<String> = v.eigenvalues.iter().filter(|e| e.frequency == k).map(|e| eigenvalue(e, v.n)).collect();
+            let own: Vec<String> =
+                v.eigenvalues.iter().filter(|e| e.frequency == k).map(|e| eigenvalue(e, v.n)).collect();
             vec![v.n.to_string(), k.to_string(), own.join(", ")]
         })
     });
@@ -167,7 +184,8 @@ fn limit_masks(report: &Report) -> Table {
         std::iter::once(v.n.to_string()).chain(own).chain(cells).collect()
     };
     let own = has_centre.then(|| "centre".to_string());
-    let head = std::iter::once("n".to_string()).chain(own).chain(names.iter().map(|name| format!("each of {name}"))).collect();
+    let head =
+        std::iter::once("n".to_string()).chain(own).chain(names.iter().map(|name| format!("each of {name}"))).collect();
     let note = format!(
         "The left vector of the eigenvalue 1: applied to {} at any level of refinement, it gives the limit of the \
          extraordinary point. The weights sum to 1.",

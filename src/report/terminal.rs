@@ -12,7 +12,10 @@ const MOST_ROWS: usize = 14;
 pub fn terminal(report: &Report) -> String {
     let class = &report.classification;
     let kind = if class.interpolating { "interpolating" } else { "approximating" };
-    let mut text = format!("{} · {}, split {}, {kind}, regular at n = {}\n\n", report.title, class.mesh, class.split, class.regular_valence);
+    let mut text = format!(
+        "{} · {}, split {}, {kind}, regular at n = {}\n\n",
+        report.title, class.mesh, class.split, class.regular_valence
+    );
     let _ = writeln!(
         text,
         "{:>6} {:>7} {:>14} {:>10} {:>9} {:>9} {:>10} {:>9}",
@@ -34,11 +37,18 @@ pub fn terminal(report: &Report) -> String {
          approximate (f64): 'seems so' and 'seems not' are evidence, not proof.\n"
     );
     for claim in report.claims.iter().filter(|claim| claim.outcome != Outcome::Agrees) {
-        let _ = writeln!(text, "claim '{}' {}: {}", claim.what, if claim.outcome == Outcome::Disagrees { "DISAGREES" } else { "undecided" }, claim.seen);
+        let _ = writeln!(
+            text,
+            "claim '{}' {}: {}",
+            claim.what,
+            if claim.outcome == Outcome::Disagrees { "DISAGREES" } else { "undecided" },
+            claim.seen
+        );
     }
     let agreeing = report.claims.iter().filter(|claim| claim.outcome == Outcome::Agrees).count();
     if agreeing > 0 {
-        let _ = writeln!(text, "{agreeing} of {} claims of the literature agree with this analysis.", report.claims.len());
+        let _ =
+            writeln!(text, "{agreeing} of {} claims of the literature agree with this analysis.", report.claims.len());
     }
     text
 }

@@ -116,7 +116,8 @@ impl RuleBook {
                 }
             }
             if ring.iter().zip(ring.iter().rev()).any(|(a, b)| (a - b).abs() > SUM_TOLERANCE) {
-                let fault = Fault::at(rule.span.clone(), "[vertex.crease] tells left from right", format!("at k = {count}"));
+                let fault =
+                    Fault::at(rule.span.clone(), "[vertex.crease] tells left from right", format!("at k = {count}"));
                 return Err(fault.hint("ring[0] and ring[k] weigh the same"));
             }
         }
@@ -207,7 +208,8 @@ impl RuleBook {
             match holding.as_slice() {
                 [_] => {}
                 [] => {
-                    let fault = Fault::at(list[0].1.clone(), format!("no case holds at {at}"), "the first of the cases");
+                    let fault =
+                        Fault::at(list[0].1.clone(), format!("no case holds at {at}"), "the first of the cases");
                     return Some(fault.hint(format!("add a case that holds at {at}")));
                 }
                 [(first, _), (_, span), ..] => {
@@ -269,7 +271,8 @@ impl RuleBook {
         let settled = self.settled_from(rule)?.max(least);
         let told = |n: &i64| !(rule.kind == RuleKind::EdgeFromIrregularEnd && *n == regular as i64);
         // waves of frequency p alias at n <= p: try the tail from a little later on, and those n one by one
-        let tail = (settled..settled + 8).find(|n| self.exact_sum(rule, RingSize::From(*n)) == Some(Laurent::whole(1)))?;
+        let tail =
+            (settled..settled + 8).find(|n| self.exact_sum(rule, RingSize::From(*n)) == Some(Laurent::whole(1)))?;
         let one = |n: i64| self.exact_sum(rule, RingSize::Exactly(n)) == Some(Laurent::whole(1));
         Some((least..tail).filter(told).all(one))
     }
@@ -350,7 +353,6 @@ fn points_in_words(entry: &Entry, kind: RuleKind) -> String {
         _ => format!("n x {name}"),
     }
 }
-
 
 #[cfg(test)]
 mod tests {

@@ -144,12 +144,7 @@ impl RuleBook {
     ///
     /// # Errors
     /// When a weight has no value, a list has another length, or an index is out of range.
-    pub fn weights<W: Number>(
-        &self,
-        entry: &Entry,
-        size: usize,
-        place: &Place<W>,
-    ) -> Result<Vec<(usize, W)>, Fault> {
+    pub fn weights<W: Number>(&self, entry: &Entry, size: usize, place: &Place<W>) -> Result<Vec<(usize, W)>, Fault> {
         let indices = self.indices(entry, size, place)?;
         match self.select(&entry.weights, place)? {
             Weights::List(formulas, span) => {
@@ -178,9 +173,14 @@ impl RuleBook {
         let cyclic = place.variable != Some("k");
         let index = |pick: &Pick| {
             let index = if let Pick::Index(index) = pick { *index } else { place.count };
-            if cyclic { Some(index.rem_euclid(size as i64)) } else { (0..size as i64).contains(&index).then_some(index) }
+            if cyclic {
+                Some(index.rem_euclid(size as i64))
+            } else {
+                (0..size as i64).contains(&index).then_some(index)
+            }
         };
-        let outside = || Fault::at(entry.span.clone(), format!("an index is outside 0..{}", size.saturating_sub(1)), "");
+        let outside =
+            || Fault::at(entry.span.clone(), format!("an index is outside 0..{}", size.saturating_sub(1)), "");
         picks.iter().map(|pick| index(pick).map(|index| index as usize).ok_or_else(outside)).collect()
     }
 
@@ -194,7 +194,8 @@ impl RuleBook {
     ) -> Fault {
         let at = place.variable.map_or(String::new(), |name| format!(" at {name} = {}", place.count));
         let message = format!("{given} weights for {wanted} points of `{}`{at}", entry.position.name);
-        Fault::at(span.clone(), message, format!("{given} weights")).hint("give one weight for each point, or one formula in j")
+        Fault::at(span.clone(), message, format!("{given} weights"))
+            .hint("give one weight for each point, or one formula in j")
     }
 }
 

@@ -246,10 +246,9 @@ impl<'t> Reader<'t> {
     fn words(&mut self, items: &[Item], key: &str) -> Vec<(String, Range<usize>)> {
         let Some((value, span)) = self.find(items, key) else { return Vec::new() };
         match value {
-            DeValue::Array(list) => list
-                .iter()
-                .filter_map(|item| Some((self.string(item.get_ref(), &item.span())?, item.span())))
-                .collect(),
+            DeValue::Array(list) => {
+                list.iter().filter_map(|item| Some((self.string(item.get_ref(), &item.span())?, item.span()))).collect()
+            }
             _ => self.string(value, &span).map(|word| vec![(word, span)]).unwrap_or_default(),
         }
     }
@@ -258,9 +257,10 @@ impl<'t> Reader<'t> {
     fn formula(&mut self, value: &DeValue, span: &Range<usize>) -> Option<Placed> {
         let (text, start) = match value {
             DeValue::String(text) => (text.to_string(), self.start_of(span, text)),
-            DeValue::Integer(_) | DeValue::Float(_) => {
-                (self.text[span.clone()].replace('_', ""), Some(span.start).filter(|_| !self.text[span.clone()].contains('_')))
-            }
+            DeValue::Integer(_) | DeValue::Float(_) => (
+                self.text[span.clone()].replace('_', ""),
+                Some(span.start).filter(|_| !self.text[span.clone()].contains('_')),
+            ),
             _ => {
                 self.wrong_type(span, "a formula in quotes", value);
                 return None;
@@ -279,9 +279,10 @@ impl<'t> Reader<'t> {
 
     /// Where a text's first byte stands in the file, when the file holds it letter by letter.
     fn start_of(&self, span: &Range<usize>, text: &str) -> Option<usize> {
-        [1, 3].into_iter().map(|quotes| span.start + quotes).find(|start| {
-            self.text.get(*start..start + text.len()) == Some(text) && start + text.len() < span.end
-        })
+        [1, 3]
+            .into_iter()
+            .map(|quotes| span.start + quotes)
+            .find(|start| self.text.get(*start..start + text.len()) == Some(text) && start + text.len() < span.end)
     }
 
     /// A condition, from the key of a table of cases or from a claim.
@@ -337,7 +338,14 @@ impl<'t> Reader<'t> {
         let DeValue::Table(table) = value.get_ref() else {
             let value = self.formula(value.get_ref(), &at)?;
             self.check_names(&value, &BTreeSet::new());
-            return Some(Parameter { name: name.to_string(), value, means: String::new(), range: None, integer: false, span });
+            return Some(Parameter {
+                name: name.to_string(),
+                value,
+                means: String::new(),
+                range: None,
+                integer: false,
+                span,
+            });
         };
         let items = self.items(table, &["default", "means", "range", "integer"], "a parameter");
         let Some((default, default_span)) = self.find(&items, "default") else {
@@ -497,7 +505,9 @@ impl<'t> Reader<'t> {
         let mut plain = 0;
         for (key, key_span, value) in in_order(table) {
             let inner = format!("{}.{key}", kind.name());
-            if let Some((_, inner)) = RuleKind::ALL.iter().find(|(name, k)| *name == inner && k.is_boundary() == boundary) {
+            if let Some((_, inner)) =
+                RuleKind::ALL.iter().find(|(name, k)| *name == inner && k.is_boundary() == boundary)
+            {
                 self.rule(book, *inner, &key_span, value, mesh, boundary);
                 continue;
             }
@@ -609,7 +619,8 @@ impl<'t> Reader<'t> {
             for entry in &rule.entries {
                 let Some(born) = entry.position.births() else { continue };
                 if !births.contains(&born) || born == rule.kind {
-                    let message = format!("`{}` has no points here: they are not made before this rule", entry.position.name);
+                    let message =
+                        format!("`{}` has no points here: they are not made before this rule", entry.position.name);
                     self.faults.push(Fault::at(entry.span.clone(), message, format!("in [{}]", rule.kind.name())));
                 }
             }
@@ -675,8 +686,7 @@ fn conditions<T>(cases: &Cases<T>) -> Vec<(&Condition, &Range<usize>)> {
 }
 
 fn in_order<'a, 'i>(table: &'a DeTable<'i>) -> Vec<Item<'a, 'i>> {
-    let mut items: Vec<Item> =
-        table.iter().map(|(key, value)| (key.get_ref().as_ref(), key.span(), value)).collect();
+    let mut items: Vec<Item> = table.iter().map(|(key, value)| (key.get_ref().as_ref(), key.span(), value)).collect();
     items.sort_by_key(|(_, span, _)| span.start);
     items
 }

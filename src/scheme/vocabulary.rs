@@ -215,7 +215,7 @@ impl Vocabulary {
     /// The vocabulary of this build.
     pub fn get() -> &'static Vocabulary {
         static VOCABULARY_ONCE: OnceLock<Vocabulary> = OnceLock::new();
-        VOCABULARY_ONCE.get_or_init(|| Vocabulary::parse(VOCABULARY).unwrap_or_else(|| Vocabulary::empty()))
+        VOCABULARY_ONCE.get_or_init(|| Vocabulary::parse(VOCABULARY).unwrap_or_else(Vocabulary::empty))
     }
 
     /// Held to be non-empty by a test: the table is part of the build.
@@ -230,7 +230,10 @@ impl Vocabulary {
             let PositionRow { around, name, meshes, once, means, .. } = row;
             Some(Position { name, around, meshes, once, walks, means })
         };
-        Some(Vocabulary { splits: table.splits, positions: table.positions.into_iter().map(read).collect::<Option<_>>()? })
+        Some(Vocabulary {
+            splits: table.splits,
+            positions: table.positions.into_iter().map(read).collect::<Option<_>>()?,
+        })
     }
 
     /// The positions that a rule may name on a kind of mesh (`None`: any).

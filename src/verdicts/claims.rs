@@ -87,7 +87,8 @@ fn check(
 }
 
 fn compare(pairs: &[(Option<f64>, f64)]) -> (Outcome, String) {
-    let differences: Option<Vec<f64>> = pairs.iter().map(|(found, claimed)| Some((found.as_ref()? - claimed).abs())).collect();
+    let differences: Option<Vec<f64>> =
+        pairs.iter().map(|(found, claimed)| Some((found.as_ref()? - claimed).abs())).collect();
     let Some(differences) = differences else {
         return (Outcome::Undecided, "the analysis has no such value at some valence".to_string());
     };

@@ -171,7 +171,9 @@ fn injective_map(analysis: &Analysis) -> Verdict {
 fn no_map(analysis: &Analysis) -> String {
     match analysis.lambda {
         None => "no characteristic map: lambda is not determined".to_string(),
-        Some(_) => "the map's derivatives need the scheme's regular tangent masks, which are not determined".to_string(),
+        Some(_) => {
+            "the map's derivatives need the scheme's regular tangent masks, which are not determined".to_string()
+        }
     }
 }
 
@@ -194,12 +196,20 @@ fn c1(conditions: &[Verdict]) -> Verdict {
 fn slope_ratio(analysis: &Analysis) -> Verdict {
     let states = "Doo and Sabin's test for slope: |lambda_k|/lambda_1 is below 1 for every frequency k other than 1";
     let Some(lambda) = analysis.lambda else {
-        return undecided("slope ratios", states, "none".to_string(), Evidence::None, &[no_map(analysis)], &["doo-sabin-1978"]);
+        return undecided(
+            "slope ratios",
+            states,
+            "none".to_string(),
+            Evidence::None,
+            &[no_map(analysis)],
+            &["doo-sabin-1978"],
+        );
     };
     let rival = analysis.spectrum.after_one().find(|e| e.frequency != 1);
     let ratio = rival.map_or(0.0, |e| e.modulus() / lambda.value.re);
     let evidence = if (ratio - 1.0).abs() <= TIE { Evidence::None } else { says(ratio < 1.0) };
-    let at = rival.map_or("no other frequency".to_string(), |e| format!("the largest is that of frequency {}", e.frequency));
+    let at =
+        rival.map_or("no other frequency".to_string(), |e| format!("the largest is that of frequency {}", e.frequency));
     undecided("slope ratios", states, digits(ratio), evidence, &[at, APPROXIMATE.to_string()], &["doo-sabin-1978"])
 }
 
@@ -290,7 +300,12 @@ pub fn digits(value: f64) -> String {
 fn complex(e: &Eigenvalue) -> String {
     match e.real() {
         Some(value) => digits(value),
-        None => format!("{} {} {} i", digits(e.value.re), if e.value.im < 0.0 { "-" } else { "+" }, digits(e.value.im.abs())),
+        None => format!(
+            "{} {} {} i",
+            digits(e.value.re),
+            if e.value.im < 0.0 { "-" } else { "+" },
+            digits(e.value.im.abs())
+        ),
     }
 }
 

@@ -1,0 +1,80 @@
+//! Does every layer look to its right only: report -> verdicts -> analysis -> refine -> {scheme, mesh} -> numbers?
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Each layer with the layers that it may use.
+const MAY_USE: [(&str, &[&str]); 8] = [
+    ("fault", &[]),
+    ("numbers", &[]),
+    ("mesh", &["numbers", "fault"]),
+    ("scheme", &["numbers", "fault"]),
+    ("refine", &["scheme", "mesh", "numbers", "fault"]),
+    ("analysis", &["refine", "scheme", "mesh", "numbers", "fault"]),
+    ("verdicts", &["analysis", "refine", "scheme", "mesh", "numbers", "fault"]),
+    ("report", &["verdicts", "analysis", "refine", "scheme", "mesh", "numbers", "fault"]),
+];
+
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            files.extend(rust_files(&path));
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
+
+#[test]
+fn layers_look_one_way() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut seen = 0;
+    for file in rust_files(&src) {
+        let inner = file.strip_prefix(&src).unwrap();
+        let layer = inner.components().next().unwrap().as_os_str().to_string_lossy().replace(".rs", "");
+        let Some((_, allowed)) = MAY_USE.iter().find(|(name, _)| *name == layer) else {
+            assert!(["lib", "main", "cli"].contains(&layer.as_str()), "{} belongs to no layer", inner.display());
+            continue;
+        };
+        let text = fs::read_to_string(&file).unwrap();
+        // unit tests may look anywhere
+        let code = text.split("#[cfg(test)]").next().unwrap();
+        let used = code
+            .lines()
+            .filter(|line| !line.trim_start().starts_with("//"))
+            .flat_map(|line| line.split("crate::").skip(1));
+        for word in used {
+            let word = word.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap();
+            assert!(word == layer || allowed.contains(&word), "{} uses crate::{word}", inner.display());
+            seen += 1;
+        }
+    }
+    assert!(seen > 50, "only {seen} uses were seen");
+}
+
+/// Every file of the library opens with what it is about.
+#[test]
+fn files_open_with_their_question() {
+    for file in rust_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src")) {
+        let text = fs::read_to_string(&file).unwrap();
+        assert!(text.starts_with("//! "), "{}", file.display());
+    }
+}
+
+/// Only the command line prints.
+#[test]
+fn nothing_prints_below_the_command_line() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for file in rust_files(&src).iter().filter(|file| !file.starts_with(src.join("cli"))) {
+        let text = fs::read_to_string(file).unwrap();
+        let code = text.split("#[cfg(test)]").next().unwrap();
+        for word in ["println!", "print!", "eprintln!", "stdout()", "stderr()"] {
+            assert!(!code.contains(word), "{} has {word}", file.display());
+        }
+    }
+}
