@@ -58,7 +58,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             &format!("{id}: all eigenvalues, n = 100,000"),
             ours,
             "dense blocks",
-            median(1, || drop(black_box(dense_blocks(large)))),
+            median(1, || {
+                black_box(dense_blocks(large));
+            }),
         );
         row(&format!("{id}: all eigenvalues, n = 100,000"), ours, "n = 10,000", median(5, || spectrum(small)));
         let valences: Vec<usize> = (3..=12).collect();

@@ -9,7 +9,7 @@ use crate::refine::{Obstacle, PatchRows};
 use nalgebra::DMatrix;
 
 /// The largest valence that is analysed.
-pub const MAX_VALENCE: usize = 1_000_000;
+pub const MAX_VALENCE: usize = 100_000;
 
 /// The largest local matrix that is written out densely.
 pub const MAX_DENSE: usize = 2_000;
@@ -69,6 +69,11 @@ impl LocalMatrix {
     /// The number of points, which is the number of rows and of columns.
     pub fn size(&self) -> usize {
         usize::from(self.centre.is_some()) + self.valence() * self.orbits.len()
+    }
+
+    /// The number of weights, which is that of entries other than 0.
+    pub fn weights(&self) -> usize {
+        self.centre.as_ref().map_or(0, Vec::len) + self.valence() * self.rows.iter().map(Vec::len).sum::<usize>()
     }
 
     /// The point of a row.

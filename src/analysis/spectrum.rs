@@ -76,6 +76,9 @@ impl Spectrum {
             let start = eigenvalues.len();
             for core in 0..cores.cores.len() {
                 let values = eigenvalues_of(blocks.real_form(frequency, &cores.nodes(core, frequency)))?;
+                if values.iter().any(|value| !modulus(*value).is_finite()) {
+                    return Err(Obstacle::Limit("an eigenvalue is too large to be computed".to_string()));
+                }
                 eigenvalues.extend(values.into_iter().map(|value| Eigenvalue { value, frequency, core, cluster: 1 }));
             }
             count_clusters(&mut eigenvalues[start..], cores);
@@ -208,7 +211,7 @@ fn sort(eigenvalues: &mut [Eigenvalue]) {
     let mut start = 0;
     while start < eigenvalues.len() {
         let top = eigenvalues[start].modulus();
-        let length = eigenvalues[start..].iter().take_while(|e| top - e.modulus() <= NEAR).count();
+        let length = eigenvalues[start..].iter().take_while(|e| top - e.modulus() <= NEAR).count().max(1);
         eigenvalues[start..start + length].sort_by(|a, b| {
             a.frequency
                 .cmp(&b.frequency)

@@ -111,10 +111,8 @@ fn write(study: &Study, folder: &Path) -> Result<Vec<String>, Failure> {
     let trouble =
         |what: &Path, error: std::io::Error| failure(format!("`{}` can't be written: {error}", what.display()));
     fs::create_dir_all(folder).map_err(|error| trouble(folder, error))?;
-    for (name, bytes) in &files {
-        let path = folder.join(name);
-        report::write_whole(&path, bytes).map_err(|error| trouble(&path, error))?;
-    }
+    let placed: Vec<(PathBuf, &[u8])> = files.iter().map(|(name, bytes)| (folder.join(name), &bytes[..])).collect();
+    report::write_all_whole(&placed).map_err(|(path, error)| trouble(&path, error))?;
     Ok(files.into_iter().map(|(name, _)| name).collect())
 }
 

@@ -69,9 +69,14 @@ impl New {
         let listed = catalogue::scheme(&self.like);
         let listed = listed
             .ok_or_else(|| failure(format!("there is no scheme `{}`; `eigenring schemes` lists them", self.like)))?;
-        let path = PathBuf::from(format!("{}.toml", self.name.trim_end_matches(".toml")));
+        let stem = self.name.trim_end_matches(".toml");
+        let path = PathBuf::from(format!("{stem}.toml"));
         let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        if title.is_empty() || title.contains(['"', '\\']) || title.chars().any(char::is_control) {
+        if stem.is_empty()
+            || stem.ends_with(['/', '.'])
+            || title.contains(['"', '\\'])
+            || title.chars().any(char::is_control)
+        {
             return Err(failure(format!("`{}` can't be the name of a scheme", self.name)));
         }
         if path.exists() {

@@ -46,6 +46,9 @@ enum Format {
     Mtx,
 }
 
+/// The most weights of a matrix that is printed sparsely.
+const MOST_WEIGHTS: usize = 5_000_000;
+
 /// A matrix with its labels, row by row: the entries that are not zero.
 struct Labelled {
     labels: Vec<String>,
@@ -73,6 +76,10 @@ impl Matrix {
             return Err(failure(format!(
                 "{message}\n  help: print it sparsely with --format mtx, or a block with --block K"
             )));
+        }
+        if self.block.is_none() && local.weights() > MOST_WEIGHTS {
+            let message = format!("the matrix has {} weights, more than {MOST_WEIGHTS}", local.weights());
+            return Err(failure(format!("{message}\n  help: print a block with --block K")));
         }
         let matrix = match self.block {
             Some(k) => block(&local, k),

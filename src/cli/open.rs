@@ -47,6 +47,9 @@ fn read(name: &str) -> Result<String, Failure> {
     if path.is_dir() {
         return Err(failure(format!("`{name}` is a directory; a scheme file is needed")));
     }
+    if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
+        return Err(failure(format!("`{name}` is not a file but a pipe or a device; a scheme file is needed")));
+    }
     let file = File::open(path).map_err(|error| not_opened(name, &error))?;
     let mut bytes = Vec::new();
     let limit = MAX_FILE_BYTES as u64 + 1;

@@ -6,7 +6,7 @@ use std::str::FromStr;
 /// The most valences in one run.
 pub(crate) const MAX_COUNT: usize = 1_000;
 /// The largest sum of the valences in one run: work and output grow with it.
-pub(crate) const MAX_SUM: usize = 2_000_000;
+pub(crate) const MAX_SUM: usize = 500_000;
 
 /// A list of valences: in the order given, each once.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,10 +5,12 @@
 
 mod names;
 mod regular;
+mod stencil;
 mod symmetry;
 
 pub use names::OrbitNames;
 pub use regular::{PatchRows, RegularStencils};
+pub use stencil::Use;
 pub use symmetry::check_symmetry;
 
 use crate::fault::{Fault, Faults};

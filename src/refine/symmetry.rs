@@ -14,22 +14,21 @@ use std::collections::BTreeSet;
 /// How far the weights of symmetric rows may differ: rounding of formulas, far below any intended weight.
 const TOLERANCE: f64 = 1e-12;
 
-/// The largest valence that is checked: cases beyond it can't be told apart from those below by symmetry alone.
-const LARGEST_CHECKED: usize = 64;
-
-/// Checks rotation and reflection at the valences asked for (those up to 64) and at the regular one.
+/// Checks rotation and reflection at the valences asked for and at the regular one.
 ///
 /// # Errors
 /// The rules that break a symmetry, or that have no value.
 pub fn check_symmetry(scheme: &Scheme, valences: &[usize]) -> Result<(), Faults> {
     let refinement = Refinement::<f64>::new(scheme, None);
     let mut faults: Vec<Fault> = Vec::new();
-    let asked = valences.iter().copied().filter(|n| (3..=LARGEST_CHECKED).contains(n));
-    let tried: BTreeSet<usize> = asked.chain([scheme.regular_valence()]).collect();
+    let tried: BTreeSet<usize> = valences.iter().copied().chain([scheme.regular_valence()]).collect();
     for valence in tried {
         if let Err(found) = check_patch(&refinement, Patch::new(lattice_of(scheme), valence)) {
-            let new = found.into_iter().filter(|fault| faults.iter().all(|known| known.span != fault.span));
-            faults.extend(new.collect::<Vec<_>>());
+            for fault in found {
+                if faults.iter().all(|known| known.span != fault.span) {
+                    faults.push(fault);
+                }
+            }
         }
     }
     if faults.is_empty() { Ok(()) } else { Err(scheme.book.faults(faults)) }

@@ -14,7 +14,7 @@ const HEAD: &str = r"\documentclass[10pt]{article}
 \setlength{\parindent}{0pt}
 \setlength{\tabcolsep}{4pt}
 % pictures are taken in where their files lie beside this one
-\newcommand{\picture}[2]{\IfFileExists{#1.png}{\begin{figure}[htbp]\centering
+\newcommand{\reportpicture}[2]{\IfFileExists{#1.png}{\begin{figure}[htbp]\centering
   \includegraphics[width=.9\textwidth]{#1.png}\caption{#2}\end{figure}}{}}
 \begin{document}
 ";
@@ -23,7 +23,7 @@ const HEAD: &str = r"\documentclass[10pt]{article}
 pub fn latex(report: &Report, figures: &[Figure]) -> String {
     let mut text = format!("{HEAD}\\section*{{{}}}\n{}\n", escaped(&report.title), escaped(&introduction(report)));
     for figure in figures {
-        let _ = writeln!(text, "\\picture{{{}}}{{{}}}", figure.name, escaped(&figure.caption));
+        let _ = writeln!(text, "\\reportpicture{{{}}}{{{}}}", figure.name, escaped(&figure.caption));
     }
     for table in tables(report) {
         let _ =
@@ -40,24 +40,31 @@ pub fn latex(report: &Report, figures: &[Figure]) -> String {
     text
 }
 
-/// A long table with the rules of booktabs. Columns with sentences wrap.
+/// Tables of more rows than this may break across pages.
+const MOST_ROWS_ON_A_PAGE: usize = 45;
+
+/// A table with the rules of booktabs. Columns with sentences wrap.
 fn rows(table: &Table) -> String {
     let longest = |column: usize| table.rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     let count = table.head.len();
     let wide: Vec<bool> = (0..count).map(|column| longest(column) > 40).collect();
     let narrow_characters: usize = (0..count).filter(|c| !wide[*c]).map(|c| longest(c).max(6)).sum();
     let share = (0.92 - 0.0105 * narrow_characters as f64).max(0.3) / wide.iter().filter(|w| **w).count().max(1) as f64;
-    let column = |wide: &bool| {
-        if *wide { format!(">{{\\raggedright\\arraybackslash}}p{{{share:.2}\\textwidth}}") } else { "l".to_string() }
+    let column = |wide: &bool| match wide {
+        true => format!(">{{\\raggedright\\arraybackslash}}p{{{share:.2}\\textwidth}}"),
+        false => "l".to_string(),
     };
     let spec: String = wide.iter().map(column).collect();
     let line =
         |row: &Vec<String>| format!("{} \\\\\n", row.iter().map(|cell| escaped(cell)).collect::<Vec<_>>().join(" & "));
     let body: String = table.rows.iter().map(line).collect();
     let size = if count > 7 { "\\scriptsize" } else { "\\footnotesize" };
+    let (environment, endhead) =
+        if table.rows.len() > MOST_ROWS_ON_A_PAGE { ("longtable", "\\endhead\n") } else { ("tabular", "") };
+    let head = line(&table.head);
     format!(
-        "{{{size}\n\\begin{{longtable}}{{@{{}}{spec}@{{}}}}\n\\toprule\n{}\\midrule\n\\endhead\n{body}\\bottomrule\n\\end{{longtable}}}}\n",
-        line(&table.head)
+        "{{{size}\\setlength{{\\tabcolsep}}{{3pt}}\n\\begin{{{environment}}}{{@{{}}{spec}@{{}}}}\n\\toprule\n{head}\\midrule\n{endhead}\
+         {body}\\bottomrule\n\\end{{{environment}}}\\par}}\n"
     )
 }
 

@@ -15,6 +15,12 @@ use std::ops::Range;
 /// How far an approximate sum may be from 1, relative to the sum of the weights' moduli.
 pub const SUM_TOLERANCE: f64 = 1e-12;
 
+/// The largest sum of the moduli of a rule's weights: beyond it nothing is left of the digits of a sum of 1.
+const MAX_MODULI: f64 = 1e6;
+
+/// Beyond this count cases are not followed one by one.
+const MOST_CASES: i64 = 1000;
+
 /// The largest count at which cases are tried beyond those asked for, when conditions are not comparisons of n with numbers.
 const TRIED_UP_TO: i64 = 64;
 
@@ -133,6 +139,9 @@ impl RuleBook {
         }
         let Some((low, high)) = &parameter.range else { return Ok(()) };
         let (least, greatest) = (self.evaluate(low, &nowhere)?, self.evaluate(high, &nowhere)?);
+        if least > greatest {
+            return Err(Fault::at(low.span.clone(), format!("the range {least} to {greatest} runs backwards"), ""));
+        }
         if value < least || value > greatest {
             let (low, high) = (low.formula.text().trim(), high.formula.text().trim());
             let message = format!("`{}` = {} is outside its range", parameter.name, parameter.value.formula.text());
@@ -180,12 +189,9 @@ impl RuleBook {
             let message = format!("[{}] is told from no vertex, so it can't have cases in n", rule.kind.name());
             return vec![Fault::at(span, message, "a case")];
         };
-        let last = self.settled_from(rule).map_or(TRIED_UP_TO, |settled| settled.min(1000));
-        let mut tried: BTreeSet<i64> = (least_count(rule.kind)..=last.max(least_count(rule.kind))).collect();
-        tried.extend(counts.iter().map(|count| *count as i64));
-        if rule.kind == RuleKind::EdgeFromIrregularEnd {
-            tried.remove(&(regular as i64));
-        }
+        let last = self.settled_from(rule).map_or(TRIED_UP_TO, |settled| settled.min(MOST_CASES));
+        let all = (least_count(rule.kind)..=last.max(least_count(rule.kind))).chain(counts.iter().map(|n| *n as i64));
+        let tried: BTreeSet<i64> = all.filter(|count| self.is_told_at(rule.kind, *count, regular)).collect();
         lists.iter().flat_map(|list| self.check_case_list(list, variable, &tried)).collect()
     }
 
@@ -225,15 +231,16 @@ impl RuleBook {
         let identity = self.sums_to_one_for_every_n(rule, regular) == Some(true);
         let counts: Vec<i64> = match rule.kind.variable() {
             None => vec![0],
-            Some(_) => counts.iter().map(|count| *count as i64).collect(),
+            Some(_) => counts.iter().map(|count| *count as i64).chain([regular as i64]).collect(),
         };
         let mut worst: f64 = 0.0;
-        for count in counts {
-            let skipped = rule.kind == RuleKind::EdgeFromIrregularEnd && count == regular as i64;
-            if count < least_count(rule.kind) || skipped {
-                continue;
-            }
+        for count in counts.into_iter().filter(|count| self.is_told_at(rule.kind, *count, regular)) {
             let (sum, moduli) = self.approx_sum(rule, count)?;
+            if moduli > MAX_MODULI {
+                let message =
+                    format!("the weights of [{}] are too large: their moduli sum to {moduli:e}", rule.kind.name());
+                return Err(Fault::at(rule.span.clone(), message, format!("the limit is {MAX_MODULI:e}")));
+            }
             worst = worst.max((sum - 1.0).abs());
             if !identity && (sum - 1.0).abs() > SUM_TOLERANCE * moduli.max(1.0) {
                 return Err(self.wrong_sum(rule, count, sum));
@@ -244,7 +251,10 @@ impl RuleBook {
 
     fn wrong_sum(&self, rule: &Rule, count: i64, sum: f64) -> Fault {
         let at = rule.kind.variable().map_or(String::new(), |name| format!(" at {name} = {count}"));
-        let message = format!("the weights of [{}] sum to {sum}{at}, not to 1", rule.kind.name());
+        let shown = format!("{sum:.12}");
+        let shown = shown.trim_end_matches('0').trim_end_matches('.');
+        let shown = if shown == "1" { format!("{sum}") } else { shown.to_string() };
+        let message = format!("the weights of [{}] sum to {shown}{at}, not to 1", rule.kind.name());
         let terms: Vec<String> = rule.entries.iter().map(|entry| points_in_words(entry, rule.kind)).collect();
         let fault = Fault::at(rule.span.clone(), message, "this rule");
         fault.hint(format!("a weight is that of each point of its name: {}", terms.join(", ")))
@@ -268,13 +278,26 @@ impl RuleBook {
         if rule.kind.variable().is_none() {
             return Some(self.exact_sum(rule, RingSize::Exactly(0))? == Laurent::whole(1));
         }
-        let settled = self.settled_from(rule)?.max(least);
-        let told = |n: &i64| !(rule.kind == RuleKind::EdgeFromIrregularEnd && *n == regular as i64);
+        let one = |n: i64| self.exact_sum(rule, RingSize::Exactly(n)) == Some(Laurent::whole(1));
+        if rule.kind == RuleKind::Face && self.quads_only {
+            return Some(one(4));
+        }
+        let settled = self.settled_from(rule).filter(|settled| *settled <= MOST_CASES)?.max(least);
+        let told = |n: &i64| self.is_told_at(rule.kind, *n, regular);
         // waves of frequency p alias at n <= p: try the tail from a little later on, and those n one by one
         let tail =
             (settled..settled + 8).find(|n| self.exact_sum(rule, RingSize::From(*n)) == Some(Laurent::whole(1)))?;
-        let one = |n: i64| self.exact_sum(rule, RingSize::Exactly(n)) == Some(Laurent::whole(1));
         Some((least..tail).filter(told).all(one))
+    }
+
+    /// Whether a rule is ever applied where its count is this.
+    fn is_told_at(&self, kind: RuleKind, count: i64, regular: usize) -> bool {
+        let regular = regular as i64;
+        match kind {
+            RuleKind::EdgeFromIrregularEnd => count >= least_count(kind) && count != regular,
+            RuleKind::Face if self.quads_only => count == 4,
+            _ => count >= least_count(kind),
+        }
     }
 
     fn exact_sum(&self, rule: &Rule, size: RingSize) -> Option<Laurent> {

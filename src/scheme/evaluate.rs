@@ -5,6 +5,7 @@ use super::{Cases, Claim, Entry, Pick, Placed, RuleBook, Scheme, Weights};
 use crate::fault::Fault;
 use crate::numbers::{Laurent, Number, Trouble};
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The deepest chain of `[let]` names.
@@ -36,6 +37,19 @@ struct Scope<'a, W> {
     depth: usize,
     /// The innermost fault, when a name's own formula has no value.
     inner: &'a RefCell<Option<Fault>>,
+    /// The values of names that are known already.
+    known: &'a RefCell<BTreeMap<String, W>>,
+}
+
+impl<'a, W> Scope<'a, W> {
+    fn new(
+        book: &'a RuleBook,
+        place: &'a Place<W>,
+        inner: &'a RefCell<Option<Fault>>,
+        known: &'a RefCell<BTreeMap<String, W>>,
+    ) -> Self {
+        Scope { book, place, depth: 0, inner, known }
+    }
 }
 
 impl<W: Number> Names<W> for Scope<'_, W> {
@@ -45,6 +59,9 @@ impl<W: Number> Names<W> for Scope<'_, W> {
         }
         if name == "j" {
             return Ok(self.place.index.clone());
+        }
+        if let Some(value) = self.known.borrow().get(name) {
+            return Ok(value.clone());
         }
         let deeper = Scope { depth: self.depth + 1, ..*self };
         let placed = if let Some(parameter) = self.book.parameters.iter().find(|p| p.name == name) {
@@ -61,7 +78,10 @@ impl<W: Number> Names<W> for Scope<'_, W> {
         if self.depth >= MAX_LET_DEPTH {
             return Err(Trouble::Domain("names refer to each other too deeply"));
         }
-        placed.formula.evaluate(&deeper).map_err(|failure| self.keep(self.book.fault(placed, failure, self.place)))
+        let value: Result<W, Failure> = placed.formula.evaluate(&deeper);
+        let value = value.map_err(|failure| self.keep(self.book.fault(placed, failure, self.place)))?;
+        self.known.borrow_mut().insert(name.to_string(), value.clone());
+        Ok(value)
     }
 }
 
@@ -79,9 +99,8 @@ impl RuleBook {
     /// # Errors
     /// The fault, at the operation that has no value.
     pub fn evaluate<W: Number>(&self, placed: &Placed, place: &Place<W>) -> Result<W, Fault> {
-        let inner = RefCell::new(None);
-        let scope = Scope { book: self, place, depth: 0, inner: &inner };
-        let value = placed.formula.evaluate(&scope);
+        let (inner, known) = (RefCell::new(None), RefCell::new(BTreeMap::new()));
+        let value = placed.formula.evaluate(&Scope::new(self, place, &inner, &known));
         value.map_err(|failure| inner.take().unwrap_or_else(|| self.fault(placed, failure, place)))
     }
 
@@ -103,12 +122,12 @@ impl RuleBook {
         count: i64,
     ) -> Result<bool, Fault> {
         let inner = RefCell::new(None);
-        let exact = Place::<Laurent>::at(variable, count);
-        if let Ok(holds) = condition.holds(&Scope { book: self, place: &exact, depth: 0, inner: &inner }) {
+        let (exact, known) = (Place::<Laurent>::at(variable, count), RefCell::new(BTreeMap::new()));
+        if let Ok(holds) = condition.holds(&Scope::new(self, &exact, &inner, &known)) {
             return Ok(holds);
         }
-        let (approx, inner) = (Place::<f64>::at(variable, count), RefCell::new(None));
-        let holds = condition.holds(&Scope { book: self, place: &approx, depth: 0, inner: &inner });
+        let (approx, known) = (Place::<f64>::at(variable, count), RefCell::new(BTreeMap::new()));
+        let holds = condition.holds(&Scope::new(self, &approx, &inner, &known));
         holds.map_err(|failure| {
             let at = variable.map_or(String::new(), |name| format!(" at {name} = {count}"));
             Fault::at(span.clone(), format!("{}{at}", failure.trouble), "in this condition")

@@ -461,7 +461,7 @@ const GRAMMAR: &str = "a formula is made of numbers, names, + - * / ^, parenthes
 fn next_token(rest: &str) -> Result<(Token<'_>, usize), (String, usize)> {
     let Some(first) = rest.chars().next() else { return Ok((Token::End, 0)) };
     if first.is_ascii_digit() || first == '.' {
-        let length = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+        let length = number_length(rest);
         return Ok((Token::Number(&rest[..length]), length));
     }
     if first.is_ascii_alphabetic() || first == '_' {
@@ -477,8 +477,27 @@ fn next_token(rest: &str) -> Result<(Token<'_>, usize), (String, usize)> {
     }
 }
 
-/// The exact value of a decimal numeral.
-fn literal(digits: &str) -> Result<Literal, String> {
+/// How many bytes a numeral has, its exponent included.
+fn number_length(rest: &str) -> usize {
+    let span =
+        |text: &str, signs: &str| text.find(|c: char| !c.is_ascii_digit() && !signs.contains(c)).unwrap_or(text.len());
+    let mantissa = span(rest, ".");
+    let exponent = rest[mantissa..].strip_prefix(['e', 'E']).unwrap_or("");
+    let digits = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+    match span(digits, "") {
+        0 => mantissa,
+        length => mantissa + 1 + (exponent.len() - digits.len()) + length,
+    }
+}
+
+/// The exact value of a decimal numeral, with or without an exponent.
+fn literal(numeral: &str) -> Result<Literal, String> {
+    let (digits, exponent) = numeral.split_once(['e', 'E']).unwrap_or((numeral, "0"));
+    let exponent: i32 = exponent
+        .parse()
+        .ok()
+        .filter(|e: &i32| e.unsigned_abs() as usize <= MAX_DIGITS)
+        .ok_or_else(|| format!("the exponent of `{numeral}` is outside -{MAX_DIGITS}..{MAX_DIGITS}"))?;
     let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
     if fraction.contains('.') || (whole.is_empty() && fraction.is_empty()) {
         return Err(format!("`{digits}` is not a number"));
@@ -488,7 +507,9 @@ fn literal(digits: &str) -> Result<Literal, String> {
     }
     let numerator: UBig = format!("0{whole}{fraction}").parse().map_err(|_| format!("`{digits}` is not a number"))?;
     let denominator = UBig::from(10_u8).pow(fraction.len());
-    Ok(Literal::new(RBig::from_parts(numerator.into(), denominator)))
+    let shift = RBig::from(UBig::from(10_u8).pow(exponent.unsigned_abs() as usize));
+    let mantissa = RBig::from_parts(numerator.into(), denominator);
+    Ok(Literal::new(if exponent < 0 { mantissa / shift } else { mantissa * shift }))
 }
 
 #[cfg(test)]
@@ -521,7 +542,7 @@ mod tests {
 
     #[test]
     fn decimals_are_exact() {
-        let sum: Laurent = Formula::parse("0.1 + .2 - 0.30").unwrap().evaluate(&NoNames).unwrap();
+        let sum: Laurent = Formula::parse("0.1 + .2 - 30e-2 + 1.5E1 - 15").unwrap().evaluate(&NoNames).unwrap();
         assert!(sum.is_certainly_zero());
     }
 
@@ -533,6 +554,8 @@ mod tests {
             ("2 $ 3", 2..3, "no meaning"),
             ("1 + coz(2)", 4..7, "no function `coz`"),
             ("3 n", 2..3, "operator"),
+            ("3e", 1..2, "operator"),
+            ("1e999", 0..5, "exponent"),
             ("1.2.3", 0..5, "not a number"),
             ("", 0..0, "needs a number"),
             ("cos(1, 2)", 5..6, "`)`"),

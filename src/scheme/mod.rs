@@ -148,6 +148,8 @@ pub struct RuleBook {
     pub lets: Vec<Let>,
     /// The rules.
     pub rules: BTreeMap<RuleKind, Rule>,
+    /// Whether every face of the meshes that it refines has four corners.
+    pub quads_only: bool,
 }
 
 impl RuleBook {

@@ -4,9 +4,9 @@
 //! keys are listed in [`KEYS`]; the README's table says what they mean, and a test holds the two together.
 
 use super::claim::{Claim, Quantity};
-use super::evaluate::MAX_LET_DEPTH;
+use super::evaluate::{MAX_LET_DEPTH, Place};
 use super::formula::{Condition, Formula};
-use super::vocabulary::{RuleKind, Vocabulary};
+use super::vocabulary::{MAX_REACH, RuleKind, Vocabulary};
 use super::{Cases, Entry, Let, Parameter, Pick, Placed, Rule, RuleBook, Scheme, Weights, catalogue};
 use crate::fault::{Fault, Faults, nearest};
 use crate::numbers::Function;
@@ -16,7 +16,13 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The largest file that is read.
-pub const MAX_FILE_BYTES: usize = 1 << 20;
+pub const MAX_FILE_BYTES: usize = 1 << 16;
+
+/// The most entries of one table: names, parameters, positions or cases.
+const MAX_ENTRIES: usize = 256;
+
+/// After this many faults no more hints are looked for.
+const MOST_HINTED: usize = 50;
 
 /// Every key of a scheme file and of a boundary file, as the README's table lists them.
 pub const KEYS: [&str; 22] = [
@@ -70,7 +76,7 @@ impl Scheme {
     ///
     /// # Errors
     /// Why it can't be set, in words.
-    pub fn set(&mut self, name: &str, value: &str) -> Result<(), String> {
+    pub fn set(&mut self, name: &str, given: &str) -> Result<(), String> {
         let known: Vec<String> = self.book.parameters.iter().map(|p| p.name.clone()).collect();
         let Some(parameter) = self.book.parameters.iter_mut().find(|p| p.name == name) else {
             return Err(match known.as_slice() {
@@ -78,12 +84,14 @@ impl Scheme {
                 _ => format!("{} has no parameter `{name}`; it has {}", self.book.title, known.join(", ")),
             });
         };
-        let formula = Formula::parse(value).map_err(|fault| format!("`{name}={value}`: {}", fault.message))?;
+        let formula = Formula::parse(given).map_err(|fault| format!("`{name}={given}`: {}", fault.message))?;
         if let Some((used, _)) = formula.names().next() {
-            return Err(format!("`{name}={value}`: a parameter's value is a number, and `{used}` is a name"));
+            return Err(format!("`{name}={given}`: a parameter's value is a number, and `{used}` is a name"));
         }
-        parameter.value = Placed { formula, span: parameter.span.clone(), start: None };
-        Ok(())
+        let value = Placed { formula, span: parameter.span.clone(), start: None };
+        parameter.value = value.clone();
+        let evaluated = self.book.evaluate::<f64>(&value, &Place::at(None, 0));
+        evaluated.map(|_| ()).map_err(|fault| format!("`{name}={given}`: {}", fault.message))
     }
 }
 
@@ -186,6 +194,7 @@ impl<'t> Reader<'t> {
             parameters,
             lets,
             rules: BTreeMap::new(),
+            quads_only: mesh == Some("quads"),
         };
         for (key, span, value) in items {
             let kind = RuleKind::ALL.iter().find(|(name, _)| name == key).map(|(_, kind)| *kind);
@@ -198,9 +207,22 @@ impl<'t> Reader<'t> {
 
     // ---- values ---------------------------------------------------------------------------------------------------
 
+    /// A table's entries in the order of the file, as many as are allowed.
+    fn in_order<'a, 'i>(&mut self, table: &'a DeTable<'i>) -> Vec<Item<'a, 'i>> {
+        let mut items: Vec<Item> =
+            table.iter().map(|(key, value)| (key.get_ref().as_ref(), key.span(), value)).collect();
+        items.sort_by_key(|(_, span, _)| span.start);
+        if items.len() > MAX_ENTRIES {
+            let message = format!("a table with {} entries; the limit is {MAX_ENTRIES}", items.len());
+            self.faults.push(Fault::at(items[MAX_ENTRIES].1.clone(), message, "one too many"));
+            items.truncate(MAX_ENTRIES);
+        }
+        items
+    }
+
     /// A table's entries in the order of the file; keys that are not known become faults.
     fn items<'a, 'i>(&mut self, table: &'a DeTable<'i>, known: &[&str], owner: &str) -> Vec<Item<'a, 'i>> {
-        let items = in_order(table);
+        let items = self.in_order(table);
         for (key, span, _) in &items {
             if !known.contains(key) {
                 let fault = Fault::at(span.clone(), format!("{owner} has no key `{key}`"), "unknown key");
@@ -308,7 +330,7 @@ impl<'t> Reader<'t> {
     ) -> Option<Cases<T>> {
         let DeValue::Table(table) = value else { return read(self, value, span).map(Cases::Always) };
         let mut cases = Vec::new();
-        for (key, key_span, value) in in_order(table) {
+        for (key, key_span, value) in self.in_order(table) {
             let condition = self.condition(key, &key_span);
             let told = read(self, value.get_ref(), &value.span());
             if let (Some(condition), Some(told)) = (condition, told) {
@@ -329,7 +351,8 @@ impl<'t> Reader<'t> {
             self.wrong_type(&span, "a table", value);
             return Vec::new();
         };
-        in_order(table).into_iter().filter_map(|item| self.parameter(item)).collect()
+        let items = self.in_order(table);
+        items.into_iter().filter_map(|item| self.parameter(item)).collect()
     }
 
     fn parameter(&mut self, (name, span, value): Item) -> Option<Parameter> {
@@ -390,7 +413,7 @@ impl<'t> Reader<'t> {
             return Vec::new();
         };
         let mut lets = Vec::new();
-        for (name, span, value) in in_order(table) {
+        for (name, span, value) in self.in_order(table) {
             self.check_new_name(name, &span);
             let told = self.cases(value.get_ref(), &value.span(), Self::formula);
             lets.extend(told.map(|value| Let { name: name.to_string(), value, uses_index: false }));
@@ -412,8 +435,9 @@ impl<'t> Reader<'t> {
         for placed in lets.iter().flat_map(|l| l.value.values()) {
             self.check_names(placed, &known);
         }
+        let decided = in_conditions(parameters);
         for (condition, span) in lets.iter().flat_map(|l| conditions(&l.value)) {
-            self.check_condition(condition, span, &known);
+            self.check_condition(condition, span, &decided);
         }
         self.check_circles(lets);
         for _ in 0..lets.len() {
@@ -426,6 +450,7 @@ impl<'t> Reader<'t> {
         }
     }
 
+    /// The names don't refer to each other in circles, nor too deeply.
     fn check_circles(&mut self, lets: &[Let]) {
         let mut depth: BTreeMap<&str, usize> = lets.iter().map(|l| (l.name.as_str(), 0)).collect();
         for _ in 0..=lets.len() {
@@ -436,11 +461,15 @@ impl<'t> Reader<'t> {
                 depth.insert(own.name.as_str(), now);
             }
         }
-        let limit = lets.len().min(MAX_LET_DEPTH);
-        if let Some(own) = lets.iter().find(|l| depth[l.name.as_str()] >= limit.max(1)) {
-            let span = own.value.values()[0].span.clone();
-            let fault = Fault::at(span, format!("the names under [let] go round in a circle at `{}`", own.name), "");
+        let at = |own: &Let| depth[own.name.as_str()];
+        let span = |own: &Let| own.value.values()[0].span.clone();
+        if let Some(own) = lets.iter().find(|own| at(own) >= lets.len()) {
+            let message = format!("the names under [let] go round in a circle at `{}`", own.name);
+            let fault = Fault::at(span(own), message, "");
             self.faults.push(fault.hint("a name may use others, but not, through them, itself"));
+        } else if let Some(own) = lets.iter().find(|own| at(own) >= MAX_LET_DEPTH) {
+            let message = format!("the names under [let] refer to each other more than {MAX_LET_DEPTH} deep");
+            self.faults.push(Fault::at(span(own), message, "too deep"));
         }
     }
 
@@ -467,7 +496,7 @@ impl<'t> Reader<'t> {
 
     fn check_condition(&mut self, condition: &Condition, span: &Range<usize>, known: &BTreeSet<&str>) {
         for (name, inner) in condition.names() {
-            if !known.contains(name) || name == "j" {
+            if !known.contains(name) {
                 let start = self.start_of(span, condition.text());
                 let place = start.map_or(span.clone(), |start| start + inner.start..start + inner.end);
                 self.unknown_name(name, place, known);
@@ -477,6 +506,10 @@ impl<'t> Reader<'t> {
 
     fn unknown_name(&mut self, name: &str, span: Range<usize>, known: &BTreeSet<&str>) {
         let fault = Fault::at(span, format!("the name `{name}` is not known here"), "unknown name");
+        if self.faults.len() >= MOST_HINTED {
+            self.faults.push(fault);
+            return;
+        }
         let functions = Function::ALL.iter().map(|(function, ..)| *function);
         let hint = match nearest(name, known.iter().copied().chain(functions).chain(["pi"])) {
             Some(near) => format!("did you mean `{near}`?"),
@@ -503,7 +536,7 @@ impl<'t> Reader<'t> {
         };
         let mut entries = Vec::new();
         let mut plain = 0;
-        for (key, key_span, value) in in_order(table) {
+        for (key, key_span, value) in self.in_order(table) {
             let inner = format!("{}.{key}", kind.name());
             if let Some((_, inner)) =
                 RuleKind::ALL.iter().find(|(name, k)| *name == inner && k.is_boundary() == boundary)
@@ -554,8 +587,9 @@ impl<'t> Reader<'t> {
                 Weights::List(list, _) => list.iter().for_each(|placed| self.check_names(placed, &known)),
             }
         }
+        let decided = in_conditions(&book.parameters);
         for (condition, span) in conditions(&weights) {
-            self.check_condition(condition, span, &known);
+            self.check_condition(condition, span, &decided);
         }
         Some(Entry { position, picks, weights, span })
     }
@@ -586,6 +620,9 @@ impl<'t> Reader<'t> {
         let names: Vec<&str> = Vocabulary::get().around(kind, mesh).map(|position| position.name.as_str()).collect();
         let fault = Fault::at(span, format!("[{}] has no position `{name}`", kind.name()), "unknown position");
         let hint = match nearest(name, names.iter().copied()) {
+            _ if name.contains(',') => {
+                format!("an address \"i,j\" counts edges, at most {MAX_REACH} in all; around a vertex i is at least 1")
+            }
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("the positions are {}; others have addresses such as \"2,0\"", quoted(&names)),
         };
@@ -655,6 +692,14 @@ impl<'t> Reader<'t> {
             self.faults.push(fault.hint(format!("it can be about {}", Quantity::WORDS)));
             return None;
         };
+        if let Quantity::Limit(position) = &quantity {
+            let dual = book.rules.contains_key(&RuleKind::Corner);
+            let kind = if dual { RuleKind::Corner } else { RuleKind::Vertex };
+            if Vocabulary::get().find(kind, None, position).is_none() {
+                self.unknown_position(kind, None, position, what_span);
+                return None;
+            }
+        }
         let mut known: BTreeSet<&str> = BTreeSet::from(["n"]);
         known.extend(book.lets.iter().map(|l| l.name.as_str()));
         known.extend(book.parameters.iter().map(|p| p.name.as_str()));
@@ -670,7 +715,7 @@ impl<'t> Reader<'t> {
         let condition = self.find(&items, "where").and_then(|(value, span)| {
             let text = self.string(value, &span)?;
             let condition = self.condition(&text, &span)?;
-            self.check_condition(&condition, &span, &known);
+            self.check_condition(&condition, &span, &in_conditions(&book.parameters));
             Some(condition)
         });
         let sources = self.words(&items, "source").into_iter().map(|(word, _)| word).collect();
@@ -678,17 +723,16 @@ impl<'t> Reader<'t> {
     }
 }
 
+/// The names that conditions may use: counts and parameters.
+fn in_conditions(parameters: &[Parameter]) -> BTreeSet<&str> {
+    ["n", "k"].into_iter().chain(parameters.iter().map(|p| p.name.as_str())).collect()
+}
+
 fn conditions<T>(cases: &Cases<T>) -> Vec<(&Condition, &Range<usize>)> {
     match cases {
         Cases::Always(_) => Vec::new(),
         Cases::When(cases) => cases.iter().map(|(condition, span, _)| (condition, span)).collect(),
     }
-}
-
-fn in_order<'a, 'i>(table: &'a DeTable<'i>) -> Vec<Item<'a, 'i>> {
-    let mut items: Vec<Item> = table.iter().map(|(key, value)| (key.get_ref().as_ref(), key.span(), value)).collect();
-    items.sort_by_key(|(_, span, _)| span.start);
-    items
 }
 
 fn quoted(words: &[&str]) -> String {

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 /// The longest walk that an address may stand for, in edges.
-pub const MAX_REACH: u32 = 16;
+pub const MAX_REACH: u32 = 8;
 
 /// What a rule is told around, and on which kind of place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
