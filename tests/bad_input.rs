@@ -489,7 +489,7 @@ fn files_that_never_end_or_may_not_be_read() {
     assert_eq!(complaint(folder.path(), &["analyze", "pipe"], &["pipe"]), None);
     let locked = folder.path().join("locked.toml");
     fs::write(&locked, SOUND).unwrap();
-    fs::set_permissions(&locked, fs::Permissions::from_mode(0)).unwrap();
+    fs::set_permissions(&locked, fs::Permissions::from_mode(0o0)).unwrap();
     if fs::read(&locked).is_err() {
         // a superuser may read it all the same
         assert_eq!(complaint(folder.path(), &["analyze", "locked.toml"], &["`locked.toml` can't be opened"]), None);
