@@ -338,6 +338,8 @@ fn ring_with_a() -> (&'static str, &'static str) {
 fn files_that_would_take_for_ever() {
     let doubling: String = (1..31).map(|i| format!("a{i} = \"a{0} - a{0} + a{0}\"\n", i - 1)).collect();
     let doubling = format!("ring = \"a30\"\n[let]\na0 = \"3/(8*n)\"\n{doubling}");
+    let nested: String = (1..30).map(|i| format!("a{i} = \"cos(a{0}) + sin(a{0})\"\n", i - 1)).collect();
+    let nested = format!("ring = \"3/(8*n) + 0*a29\"\n[let]\na0 = \"1\"\n{nested}");
     let many_names: String = (0..30_000).map(|i| format!("a{i}=1\n")).collect();
     let many_names = format!("[let]\n{many_names}b=\"c\"\n");
     let many_unknown: String = (0..10_000).map(|i| format!("b{i}xxxxxxxxxx=\"c{i}\"\n")).collect();
@@ -354,6 +356,7 @@ fn files_that_would_take_for_ever() {
         ("weights that overflow", ring("\"10^308\"\n\"2,0\" = \"-10^308\"", "\"1\"")),
         ("tiny weights", ring("\"10^-300\"", "\"1 - n*10^-300\"")),
         ("names that double", edited(line, &doubling)),
+        ("waves of waves", edited(line, &nested)),
         ("very many names", edited("", &many_names)),
         ("very many unknown names", edited("", &many_unknown)),
         ("very many cases", edited(line, &many_cases)),

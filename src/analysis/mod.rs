@@ -31,6 +31,7 @@ pub struct Analyzer<'a> {
     stencils: RegularStencils,
     influence: Influence,
     regular: Option<RegularMasks>,
+    regular_part: RegularPart,
 }
 
 /// The eigenvalues that Doo and Sabin's classical test compares, on the smallest invariant neighbourhood.
@@ -64,7 +65,7 @@ pub struct Analysis {
     pub cores: Cores,
     /// The eigenvalues.
     pub spectrum: Spectrum,
-    /// The eigenvalue of frequency 1 that dominates its frequency, when it is real, positive and isolated.
+    /// The subdominant eigenvalue, when it is of frequency 1, real, positive and isolated; another frequency may tie with it.
     pub lambda: Option<Eigenvalue>,
     /// The limit mask, where 1 is isolated in frequency 0.
     pub limit_mask: Option<Mask>,
@@ -74,6 +75,21 @@ pub struct Analysis {
     pub map: Option<MapReport>,
     /// The eigenvalues of the classical test.
     pub classical: Classical,
+    /// What was seen at the regular valence.
+    pub regular: RegularPart,
+}
+
+/// What the spectrum at the regular valence says of the scheme on regular meshes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RegularPart {
+    /// The regular valence.
+    pub valence: usize,
+    /// The modulus of the largest eigenvalue after 1.
+    pub next_modulus: f64,
+    /// The subdominant eigenvalue, when it is of frequency 1, real and positive; a C1 scheme that halves the lattice has 1/2.
+    pub lambda: Option<f64>,
+    /// The largest modulus after 1 and the subdominant eigenvalue.
+    pub rival: f64,
 }
 
 impl<'a> Analyzer<'a> {
@@ -86,8 +102,14 @@ impl<'a> Analyzer<'a> {
         let lattice = lattice_of(scheme);
         let stencils = RegularStencils::of(&refinement, lattice)?;
         let influence = Influence::of(&stencils, lattice)?;
-        let mut analyzer = Analyzer { refinement, lattice, stencils, influence, regular: None };
-        let regular = analyzer.at(lattice.regular_valence())?;
+        let valence = lattice.regular_valence();
+        let regular_part = RegularPart::default();
+        let mut analyzer = Analyzer { refinement, lattice, stencils, influence, regular: None, regular_part };
+        let regular = analyzer.at(valence)?;
+        let next_modulus = regular.spectrum.subdominant().map_or(0.0, |e| e.modulus());
+        let rival = regular.spectrum.after_subdominant().next().map_or(0.0, |e| e.modulus());
+        let lambda = regular.lambda.map(|e| e.value.re);
+        analyzer.regular_part = RegularPart { valence, next_modulus, lambda, rival };
         if let (Some(limit), Some(tangents)) = (&regular.limit_mask, &regular.tangent_masks) {
             analyzer.regular = Some(RegularMasks::of(&regular.local, limit, tangents));
         }
@@ -136,15 +158,29 @@ impl<'a> Analyzer<'a> {
         let one = spectrum.one();
         let limit = one.and_then(|one| spectrum.left_vector(&blocks, &cores, &one));
         let limit_mask = limit.and_then(|(left, _)| Mask::limit(&left, &local));
-        let lambda = spectrum.largest_of(1).filter(|e| e.is_isolated() && e.real().is_some_and(|value| value > 0.0));
+        let is_lambda =
+            |e: &Eigenvalue| e.frequency == 1 && e.is_isolated() && e.real().is_some_and(|value| value > 0.0);
+        let lambda = spectrum.subdominant().filter(is_lambda);
         let left = lambda.and_then(|lambda| spectrum.left_vector(&blocks, &cores, &lambda));
         let tangent_masks = left.and_then(|(left, _)| Mask::tangents(&left, &local));
-        let right = lambda.and_then(|lambda| spectrum.right_vector(&blocks, &cores, &lambda));
-        let lambda_value = lambda.map_or(0.0, |lambda| lambda.value.re);
-        let map = right.and_then(|(right, _)| CharacteristicMap::of(&rows, &local, lambda_value, &right));
+        let right = lambda.and_then(|lambda| Some((lambda, spectrum.right_vector(&blocks, &cores, &lambda)?.0)));
+        let map = right.and_then(|(e, right)| CharacteristicMap::of(&rows, &local, e.value.re, &right));
         let map = map.map(|map| MapReport { net: self.net(&map, &local), shape: self.shape(&map, valence) });
         let classical = classical(&rows, &local, &cores, &spectrum)?;
-        Ok(Analysis { valence, local, blocks, cores, spectrum, lambda, limit_mask, tangent_masks, map, classical })
+        let regular = self.regular_part;
+        Ok(Analysis {
+            valence,
+            local,
+            blocks,
+            cores,
+            spectrum,
+            lambda,
+            limit_mask,
+            tangent_masks,
+            map,
+            classical,
+            regular,
+        })
     }
 
     fn net(&self, map: &CharacteristicMap, local: &LocalMatrix) -> Vec<Complex64> {

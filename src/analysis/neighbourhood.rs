@@ -110,7 +110,12 @@ impl Influence {
         }
         orbits.extend(last);
         orbits.insert((0, 0));
-        let closed = closure(rows, orbits)?;
+        let mut closed = closure(rows, orbits)?;
+        // a weight may be 0 on one side and rounding noise on the other: keep what the mirror sees
+        let centre = |orbit: &Orbit| lattice.has_centre() && *orbit == (0, 0);
+        let images: Vec<Orbit> = closed.iter().filter(|o| !centre(o)).map(|o| lattice.mirror(*o).0).collect();
+        closed.extend(images);
+        let closed = closure(rows, closed)?;
         let mut orbits: Vec<Orbit> =
             closed.into_iter().filter(|orbit| !lattice.has_centre() || *orbit != (0, 0)).collect();
         orbits.sort_by(|a, b| order(lattice, *a, *b));

@@ -4,11 +4,12 @@
 //! tell apart form a cluster; its structure (one Jordan block, or several) is not decided here, and no vectors are
 //! computed for it.
 
-use super::blocks::{Blocks, ModeVector, Node};
+use super::blocks::{Blocks, ModeVector};
 use super::cores::Cores;
 use crate::refine::Obstacle;
 use nalgebra::{DMatrix, DVector, Matrix3};
 use num_complex::Complex64;
+use std::collections::BTreeSet;
 
 /// Eigenvalues of different cores nearer than this are called approximately equal: well-conditioned eigenvalues of matrices
 /// with entries of order 1 are right to about 1e-15. A convention.
@@ -26,14 +27,13 @@ pub struct Eigenvalue {
     pub core: usize,
     /// How many eigenvalues of this frequency are approximately equal to it, itself included.
     pub cluster: usize,
+    /// Which cluster of its frequency it belongs to.
+    pub group: usize,
+    /// How far the value may be off, by the estimate that clusters are told by: not a bound.
+    pub approx_error: f64,
 }
 
 impl Eigenvalue {
-    /// How far the value may be off, by the rule of thumb that clusters are told by: not a bound.
-    pub fn approx_error(&self) -> f64 {
-        cluster_radius(self.cluster)
-    }
-
     /// Its modulus.
     pub fn modulus(&self) -> f64 {
         modulus(self.value)
@@ -75,13 +75,22 @@ impl Spectrum {
         for frequency in 0..=valence / 2 {
             let start = eigenvalues.len();
             for core in 0..cores.cores.len() {
-                let values = eigenvalues_of(blocks.real_form(frequency, &cores.nodes(core, frequency)))?;
+                let form = blocks.real_form(frequency, &cores.nodes(core, frequency));
+                let values = eigenvalues_of(&form)?;
                 if values.iter().any(|value| !modulus(*value).is_finite()) {
                     return Err(Obstacle::Limit("an eigenvalue is too large to be computed".to_string()));
                 }
-                eigenvalues.extend(values.into_iter().map(|value| Eigenvalue { value, frequency, core, cluster: 1 }));
+                let errors = error_estimates(&form, &values)?;
+                eigenvalues.extend(values.into_iter().zip(errors).map(|(value, approx_error)| Eigenvalue {
+                    value,
+                    frequency,
+                    core,
+                    cluster: 1,
+                    group: 0,
+                    approx_error,
+                }));
             }
-            count_clusters(&mut eigenvalues[start..], cores);
+            find_clusters(&mut eigenvalues[start..]);
         }
         sort(&mut eigenvalues);
         Ok(Spectrum { eigenvalues, valence })
@@ -105,9 +114,11 @@ impl Spectrum {
         self.eigenvalues.iter().enumerate().filter(move |(index, _)| Some(*index) != one).map(|(_, e)| e)
     }
 
-    /// The largest eigenvalue after 1.
+    /// The largest eigenvalue after 1; of several with approximately the same modulus that of frequency 1, if there is one.
     pub fn subdominant(&self) -> Option<Eigenvalue> {
-        self.after_one().next().copied()
+        let first = self.after_one().next()?;
+        let mut tied = self.after_one().take_while(|e| first.modulus() - e.modulus() <= NEAR);
+        Some(*tied.find(|e| e.frequency == 1).unwrap_or(first))
     }
 
     /// The largest eigenvalue of a frequency (of frequency 0: after 1).
@@ -118,28 +129,14 @@ impl Spectrum {
     /// The eigenvalues after 1 and the subdominant one (with its cluster), in order.
     pub fn after_subdominant(&self) -> impl Iterator<Item = &Eigenvalue> {
         let first = self.subdominant();
-        let skipped = move |e: &Eigenvalue| first.is_some_and(|s| s.frequency == e.frequency && near(s.value, e.value));
+        let skipped = move |e: &Eigenvalue| first.is_some_and(|s| s.frequency == e.frequency && s.group == e.group);
         self.after_one().filter(move |e| !skipped(e))
     }
 
     /// One eigenvalue for each cluster, in order.
     pub fn distinct(&self) -> Vec<Eigenvalue> {
-        let mut distinct: Vec<Eigenvalue> = Vec::new();
-        let mut skip: Vec<(usize, Complex64, usize)> = Vec::new();
-        for e in &self.eigenvalues {
-            let known = skip.iter_mut().find(|(k, value, left)| {
-                *k == e.frequency && *left > 0 && modulus(*value - e.value) <= cluster_radius(e.cluster)
-            });
-            match known {
-                Some((_, _, left)) => *left -= 1,
-                None => {
-                    distinct.push(*e);
-                    skip.push((e.frequency, e.value, e.cluster - 1));
-                    skip.retain(|(_, _, left)| *left > 0);
-                }
-            }
-        }
-        distinct
+        let mut seen = BTreeSet::new();
+        self.eigenvalues.iter().filter(|e| seen.insert((e.frequency, e.group))).copied().collect()
     }
 
     /// A right vector: B_k y = lambda y, for an isolated real eigenvalue. The largest entry of the residual, relative to that
@@ -147,7 +144,7 @@ impl Spectrum {
     pub fn right_vector(&self, blocks: &Blocks, cores: &Cores, e: &Eigenvalue) -> Option<(ModeVector, f64)> {
         let nodes = cores.above(e.core, e.frequency);
         let form = blocks.real_form(e.frequency, &nodes);
-        let real = null_vector(&form, isolated_real(e)?)?;
+        let real = null_vector(&shifted(&form, isolated_real(e)?))?;
         let residual = residual(&form, e.value.re, &real);
         Some((blocks.right_from_real(e.frequency, &nodes, &real), residual))
     }
@@ -156,7 +153,7 @@ impl Spectrum {
     pub fn left_vector(&self, blocks: &Blocks, cores: &Cores, e: &Eigenvalue) -> Option<(ModeVector, f64)> {
         let nodes = cores.below(e.core, e.frequency);
         let form = blocks.real_form(e.frequency, &nodes).transpose();
-        let real = null_vector(&form, isolated_real(e)?)?;
+        let real = null_vector(&shifted(&form, isolated_real(e)?))?;
         let residual = residual(&form, e.value.re, &real);
         Some((blocks.left_from_real(e.frequency, &nodes, &real), residual))
     }
@@ -180,28 +177,61 @@ pub fn near(a: Complex64, b: Complex64) -> bool {
     modulus(a - b) <= NEAR
 }
 
+/// A - lambda
+fn shifted(a: &DMatrix<f64>, lambda: f64) -> DMatrix<f64> {
+    a - DMatrix::identity(a.nrows(), a.nrows()) * lambda
+}
+
 fn isolated_real(e: &Eigenvalue) -> Option<f64> {
     if e.is_isolated() { e.real() } else { None }
 }
 
-/// How far rounding drives apart m equal eigenvalues of one Jordan block: of the order of the m-th root of the precision.
-fn cluster_radius(m: usize) -> f64 {
-    if m == 1 { NEAR } else { (8.0 * libm::pow(f64::EPSILON, 1.0 / m as f64)).max(NEAR) }
+/// How far each eigenvalue of a core may be off, by an experiment: the matrix is changed by a few units in the last place, in a
+/// fixed pattern, and what moves by d may be off by some 16 d. Eigenvalues of a Jordan block of size m move by about eps^(1/m), others hardly.
+/// Where no two eigenvalues of the core are so near that it matters, [`NEAR`] without the experiment.
+fn error_estimates(form: &DMatrix<f64>, values: &[Complex64]) -> Result<Vec<f64>, Obstacle> {
+    let loose = 8.0 * libm::pow(f64::EPSILON, 1.0 / values.len().max(1) as f64);
+    let close = |(i, a): (usize, &Complex64)| values[..i].iter().any(|b| modulus(a - b) <= loose);
+    if !values.iter().enumerate().any(close) {
+        return Ok(vec![NEAR; values.len()]);
+    }
+    let scale = form.iter().fold(0.0_f64, |top, entry| top.max(entry.abs()));
+    let mut state = 0x2545_F491_4F6C_DD1D_u64;
+    let changed = form.map(|entry| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        let sign = if state >> 63 == 0 { 1.0 } else { -1.0 };
+        entry + sign * 4.0 * f64::EPSILON * scale
+    });
+    let moved = eigenvalues_of(&changed)?;
+    let movement = |value: &Complex64| moved.iter().map(|other| modulus(other - value)).fold(f64::INFINITY, f64::min);
+    Ok(values.iter().map(|value| (16.0 * movement(value)).clamp(NEAR, loose.max(NEAR))).collect())
 }
 
-/// Counts, for the eigenvalues of one frequency, how many are approximately equal; those of one core take their mean.
-fn count_clusters(eigenvalues: &mut [Eigenvalue], cores: &Cores) {
-    let size = |core: usize| cores.cores[core].iter().map(|node: &Node| node.unknowns()).sum::<usize>();
+/// Joins, among the eigenvalues of one frequency, those that are approximately equal: of one core where their errors may make up for
+/// their distance, of different cores where they are nearer than [`NEAR`]. Those of one core take their mean.
+fn find_clusters(eigenvalues: &mut [Eigenvalue]) {
     let all: Vec<Eigenvalue> = eigenvalues.to_vec();
-    for e in eigenvalues.iter_mut() {
-        let radius = cluster_radius(size(e.core));
-        let own = all.iter().filter(|other| other.core == e.core && modulus(other.value - e.value) <= radius);
-        let (sum, count) = own.fold((Complex64::ZERO, 0), |(sum, count), other| (sum + other.value, count + 1));
-        let others = all.iter().filter(|other| other.core != e.core && near(other.value, e.value)).count();
-        e.cluster = count + others;
-        if count > 1 {
-            e.value = sum / count as f64;
+    let joined = |a: &Eigenvalue, b: &Eigenvalue| {
+        let radius = if a.core == b.core { a.approx_error.max(b.approx_error) } else { NEAR };
+        modulus(a.value - b.value) <= radius
+    };
+    let mut groups: Vec<usize> = (0..all.len()).collect();
+    for a in 0..all.len() {
+        for b in 0..a {
+            if groups[a] != groups[b] && joined(&all[a], &all[b]) {
+                let (from, to) = (groups[a], groups[b]);
+                groups.iter_mut().filter(|group| **group == from).for_each(|group| *group = to);
+            }
         }
+    }
+    for (index, e) in eigenvalues.iter_mut().enumerate() {
+        let members = || all.iter().zip(&groups).filter(|(_, group)| **group == groups[index]).map(|(other, _)| other);
+        let own = || members().filter(|other| other.core == e.core).map(|other| other.value);
+        e.value = own().sum::<Complex64>() / own().count() as f64;
+        e.approx_error = members().map(|other| other.approx_error).fold(0.0, f64::max);
+        (e.cluster, e.group) = (members().count(), groups[index]);
     }
 }
 
@@ -223,7 +253,7 @@ fn sort(eigenvalues: &mut [Eigenvalue]) {
 }
 
 /// The eigenvalues of a real matrix.
-fn eigenvalues_of(matrix: DMatrix<f64>) -> Result<Vec<Complex64>, Obstacle> {
+fn eigenvalues_of(matrix: &DMatrix<f64>) -> Result<Vec<Complex64>, Obstacle> {
     if matrix.iter().any(|entry| !entry.is_finite()) {
         return Err(Obstacle::Limit("a block of the local matrix has an entry that is not finite".to_string()));
     }
@@ -278,14 +308,13 @@ fn roots_of_quadratic(a: f64, b: f64, c: f64, d: f64) -> Vec<Complex64> {
     vec![Complex64::new(larger, 0.0), Complex64::new(smaller, 0.0)]
 }
 
-/// A vector v, its largest entry 1, with A v = lambda v for a simple eigenvalue: the null space of A - lambda by Gaussian
-/// elimination with full pivoting.
-fn null_vector(a: &DMatrix<f64>, lambda: f64) -> Option<Vec<f64>> {
+/// A vector v, its largest entry 1, with A v = 0 for a matrix of corank 1: by Gaussian elimination with full pivoting.
+fn null_vector(a: &DMatrix<f64>) -> Option<Vec<f64>> {
     let size = a.nrows();
     if size == 0 {
         return None;
     }
-    let lu = (a - DMatrix::identity(size, size) * lambda).full_piv_lu();
+    let lu = a.clone().full_piv_lu();
     let u = lu.u();
     let mut v = DVector::zeros(size);
     v[size - 1] = 1.0;

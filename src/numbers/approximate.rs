@@ -77,7 +77,9 @@ impl Number for f64 {
     }
 
     fn order(&self, other: &Self) -> Option<Ordering> {
-        self.partial_cmp(other)
+        // sides that rounding alone may have parted are not ordered
+        let near = (self - other).abs() <= 1e-12 * self.abs().max(other.abs()).max(1.0);
+        if near && self != other { None } else { self.partial_cmp(other) }
     }
 
     fn is_certainly_zero(&self) -> bool {

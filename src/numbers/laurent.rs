@@ -34,6 +34,8 @@ type Monomial = BTreeMap<Atom, i64>;
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Laurent {
     terms: BTreeMap<Monomial, RBig>,
+    /// The number of terms, those inside of atoms counted as often as they stand there.
+    size: usize,
 }
 
 /// How many terms a sum over a ring has.
@@ -92,7 +94,10 @@ impl Laurent {
     }
 
     fn from_terms(terms: impl IntoIterator<Item = (Monomial, RBig)>) -> Self {
-        Laurent { terms: terms.into_iter().filter(|(_, coefficient)| !coefficient.is_zero()).collect() }
+        let terms: BTreeMap<_, _> = terms.into_iter().filter(|(_, coefficient)| !coefficient.is_zero()).collect();
+        let inner = terms.keys().flat_map(|monomial| monomial.keys()).map(Atom::size);
+        let size = inner.fold(terms.len(), usize::saturating_add);
+        Laurent { terms, size }
     }
 
     fn mentions(&self, name: &str) -> bool {
@@ -102,7 +107,7 @@ impl Laurent {
     fn checked(self) -> Result<Self, Trouble> {
         let small = |value: &RBig| value.numerator().bit_len().max(value.denominator().bit_len()) <= MAX_BITS;
         let low = |monomial: &Monomial| monomial.values().all(|exponent| exponent.abs() <= MAX_EXPONENT);
-        let fits = self.terms.len() <= MAX_TERMS && self.terms.iter().all(|(m, c)| low(m) && small(c));
+        let fits = self.size <= MAX_TERMS && self.terms.iter().all(|(m, c)| low(m) && small(c));
         if fits { Ok(self) } else { Err(TOO_LARGE) }
     }
 
@@ -129,6 +134,14 @@ impl Laurent {
 }
 
 impl Atom {
+    fn size(&self) -> usize {
+        match self {
+            Atom::Name(_) => 0,
+            Atom::Call(_, arguments) => arguments.iter().map(|argument| argument.size).fold(0, usize::saturating_add),
+            Atom::Sum(sum) => sum.size,
+        }
+    }
+
     fn mentions(&self, name: &str) -> bool {
         match self {
             Atom::Name(own) => own == name,
@@ -220,7 +233,7 @@ impl Number for Laurent {
             (Function::Binom | Function::Min | Function::Max, _) => {
                 Err(Trouble::BeyondThisWorld("binom, min and max are decided for numbers only"))
             }
-            _ => Ok(Laurent::of_atom(Atom::Call(function, arguments.to_vec()))),
+            _ => Laurent::of_atom(Atom::Call(function, arguments.to_vec())).checked(),
         }
     }
 

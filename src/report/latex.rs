@@ -30,8 +30,8 @@ pub fn latex(report: &Report, figures: &[Figure]) -> String {
             write!(text, "\n\\subsection*{{{}}}\n{}\n\n{}", escaped(&table.title), escaped(&table.note), rows(&table));
     }
     text.push_str("\n\\begin{thebibliography}{99}\n");
-    for source in &report.sources {
-        let _ = writeln!(text, "\\bibitem{{{}}} {}", source.key, escaped(&source.citation));
+    for (index, source) in report.sources.iter().enumerate() {
+        let _ = writeln!(text, "\\bibitem{{r{index}}} {}: {}", escaped(&source.key), escaped(&source.citation));
     }
     if report.sources.is_empty() {
         text.push_str("\\bibitem{none} no sources\n");

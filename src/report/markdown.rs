@@ -39,7 +39,7 @@ pub(super) fn introduction(report: &Report) -> String {
         "Mesh: {}. Split: {}. {} scheme, linear; regular at n = {}. Analysed at an extraordinary {place}, over the full \
          neighbourhood: every point that influences the limit surface over the faces around the centre.{parameters}\n\n\
          All numbers are approximate (f64, no error bound) unless they are said to be proved. As a check, {vectors} right and left \
-         eigenvectors were put into their equations; the residuals, relative to the vectors, are {worst}.",
+         eigenvectors were put into their equations; the approximate residuals, relative to the vectors, are {worst}.",
         class.mesh,
         class.split,
         capitalised(kind),

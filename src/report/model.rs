@@ -40,7 +40,7 @@ pub struct Report {
     pub claims: Vec<ClaimCheck>,
 }
 
-/// How the founding documents classify schemes.
+/// How schemes are classified.
 #[derive(Clone, Debug, Serialize)]
 pub struct Classification {
     /// triangles, quads or polygons.
@@ -91,13 +91,16 @@ pub struct ValenceReport {
     pub tangent_masks: Option<[Vec<WeightReport>; 2]>,
     /// The control net of the characteristic map.
     pub characteristic_map: Option<Vec<PointReport>>,
-    /// A power of ten above the residuals of all right and left vectors that were computed, and their number.
+    /// A power of ten above the approximate residuals of all right and left vectors that were computed, and their number.
     pub residual: ResidualReport,
     /// The conditions.
     pub verdicts: Vec<Verdict>,
     /// The weights of the rule at the extraordinary point: of the vertex (or corner) rule, on old points.
     #[serde(skip)]
     pub rule_weights: Vec<(String, f64)>,
+    /// The largest eigenvalue of each frequency, the 1 of the constants left out, for tables.
+    #[serde(skip)]
+    pub largest: Vec<Option<[f64; 2]>>,
     /// Amplitudes of the masks by orbit, for tables.
     #[serde(skip)]
     pub amplitudes: Vec<AmplitudeReport>,
@@ -148,7 +151,7 @@ pub struct SubsubdominantReport {
     pub ratio: Option<f64>,
     /// The size of the largest Jordan block; null while arithmetic is approximate.
     pub jordan: Option<usize>,
-    /// How far the modulus may be off, by the rule of thumb that clusters are told by.
+    /// How far the modulus may be off, by the estimate that clusters are told by.
     #[serde(skip)]
     pub approx_error: f64,
 }
@@ -320,6 +323,7 @@ fn valence_report(analysis: &Analysis, verdicts: &[Verdict], names: &OrbitNames)
         residual: ResidualReport { bound: bound(residual), vectors },
         verdicts: verdicts.to_vec(),
         rule_weights: rule_weights(analysis, names),
+        largest: (0..=n / 2).map(|k| analysis.spectrum.largest_of(k).map(|e| pair(e.value))).collect(),
         amplitudes: amplitudes(analysis, names),
     }
 }
@@ -344,13 +348,13 @@ fn eigenvalue_report(e: &Eigenvalue, n: usize) -> EigenvalueReport {
 fn subsubdominant_report(analysis: &Analysis) -> Option<SubsubdominantReport> {
     let first = analysis.spectrum.after_subdominant().next()?;
     let modulus = first.modulus();
-    let tied = analysis.spectrum.after_subdominant().take_while(|e| modulus - e.modulus() <= first.approx_error());
+    let tied = analysis.spectrum.after_subdominant().take_while(|e| modulus - e.modulus() <= first.approx_error);
     let mut frequencies: Vec<usize> = tied.map(|e| e.frequency).collect();
     frequencies.sort_unstable();
     frequencies.dedup();
     let lambda = analysis.lambda.map(|e| e.value.re);
     let ratio = lambda.map(|lambda| modulus / (lambda * lambda));
-    Some(SubsubdominantReport { modulus, frequencies, ratio, jordan: None, approx_error: first.approx_error() })
+    Some(SubsubdominantReport { modulus, frequencies, ratio, jordan: None, approx_error: first.approx_error })
 }
 
 fn mask_report(mask: &Mask, analysis: &Analysis, names: &OrbitNames) -> Vec<WeightReport> {

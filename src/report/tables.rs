@@ -133,10 +133,7 @@ fn complex([re, im]: [f64; 2]) -> String {
 
 fn by_frequency(report: &Report) -> Table {
     let most = report.valences.iter().map(|v| v.n / 2 + 1).max().unwrap_or(0).min(MOST_FREQUENCIES);
-    let largest = |v: &ValenceReport, k: usize| {
-        let one = usize::from(k == 0);
-        v.eigenvalues.iter().filter(|e| e.frequency == k).nth(one).map(|e| complex(e.value))
-    };
+    let largest = |v: &ValenceReport, k: usize| v.largest.get(k).copied().flatten().map(complex);
     let row = |v: &ValenceReport| {
         let cells = (0..most).map(|k| largest(v, k).unwrap_or("-".to_string()));
         std::iter::once(v.n.to_string()).chain(cells).collect()
@@ -212,8 +209,12 @@ fn limit_of(v: &ValenceReport, name: &str) -> Option<f64> {
 fn tangent_masks(report: &Report) -> Table {
     let rows = report.valences.iter().flat_map(|v| {
         v.amplitudes.iter().filter_map(|a| {
-            let (r, phase) = a.tangent.filter(|(r, _)| *r != 0.0)?;
-            let shift = if phase.abs() < 5e-11 { "s".to_string() } else { format!("s + {phase:.4}") };
+            let (r, phase) = a.tangent.filter(|(r, _)| *r > 1e-12)?;
+            let shift = match phase {
+                phase if phase.abs() < 5e-11 => "s".to_string(),
+                phase if phase < 0.0 => format!("s - {:.4}", -phase),
+                phase => format!("s + {phase:.4}"),
+            };
             Some(vec![v.n.to_string(), a.at.clone(), digits(r), shift])
         })
     });

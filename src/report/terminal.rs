@@ -48,7 +48,7 @@ pub fn terminal(report: &Report) -> String {
     let agreeing = report.claims.iter().filter(|claim| claim.outcome == Outcome::Agrees).count();
     if agreeing > 0 {
         let _ =
-            writeln!(text, "{agreeing} of {} claims of the literature agree with this analysis.", report.claims.len());
+            writeln!(text, "{agreeing} of {} claims of the scheme file agree with this analysis.", report.claims.len());
     }
     text
 }

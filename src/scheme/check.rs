@@ -18,6 +18,9 @@ pub const SUM_TOLERANCE: f64 = 1e-12;
 /// The largest sum of the moduli of a rule's weights: beyond it nothing is left of the digits of a sum of 1.
 const MAX_MODULI: f64 = 1e6;
 
+/// How the message of a wrong sum ends.
+const NOT_ONE: &str = ", not to 1";
+
 /// Beyond this count cases are not followed one by one.
 const MOST_CASES: i64 = 1000;
 
@@ -81,8 +84,9 @@ impl RuleBook {
         let mut elsewhere = self.clone();
         let mut moved = Vec::new();
         for parameter in elsewhere.parameters.iter_mut().filter(|parameter| !parameter.integer) {
-            let probe = self.other_value(parameter)?;
-            parameter.value.formula = Formula::parse(&format!("{probe}")).ok()?;
+            let Some(probe) = self.other_value(parameter) else { continue };
+            let Ok(formula) = Formula::parse(&format!("{probe}")) else { continue };
+            parameter.value.formula = formula;
             moved.push(format!("{} = {probe}", parameter.name));
         }
         if moved.is_empty() {
@@ -91,7 +95,7 @@ impl RuleBook {
         // a formula may have no value elsewhere; only a wrong sum is a fault
         let wrong = |rule: &Rule| {
             let fault = elsewhere.check_sum(rule, counts, regular).err()?;
-            fault.message.contains("sum to").then_some(fault)
+            fault.message.ends_with(NOT_ONE).then_some(fault)
         };
         let mut fault = elsewhere.rules.values().find_map(wrong)?;
         fault.message = format!("with {}, {}", moved.join(", "), fault.message);
@@ -242,7 +246,7 @@ impl RuleBook {
                 return Err(Fault::at(rule.span.clone(), message, format!("the limit is {MAX_MODULI:e}")));
             }
             worst = worst.max((sum - 1.0).abs());
-            if !identity && (sum - 1.0).abs() > SUM_TOLERANCE * moduli.max(1.0) {
+            if (sum - 1.0).abs() > SUM_TOLERANCE * moduli.max(1.0) {
                 return Err(self.wrong_sum(rule, count, sum));
             }
         }
@@ -254,7 +258,7 @@ impl RuleBook {
         let shown = format!("{sum:.12}");
         let shown = shown.trim_end_matches('0').trim_end_matches('.');
         let shown = if shown == "1" { format!("{sum}") } else { shown.to_string() };
-        let message = format!("the weights of [{}] sum to {shown}{at}, not to 1", rule.kind.name());
+        let message = format!("the weights of [{}] sum to {shown}{at}{NOT_ONE}", rule.kind.name());
         let terms: Vec<String> = rule.entries.iter().map(|entry| points_in_words(entry, rule.kind)).collect();
         let fault = Fault::at(rule.span.clone(), message, "this rule");
         fault.hint(format!("a weight is that of each point of its name: {}", terms.join(", ")))
@@ -278,11 +282,12 @@ impl RuleBook {
         if rule.kind.variable().is_none() {
             return Some(self.exact_sum(rule, RingSize::Exactly(0))? == Laurent::whole(1));
         }
+        // conditions that compare n with numbers, and only those, are decided exactly
+        let settled = self.settled_from(rule).filter(|settled| *settled <= MOST_CASES)?.max(least);
         let one = |n: i64| self.exact_sum(rule, RingSize::Exactly(n)) == Some(Laurent::whole(1));
         if rule.kind == RuleKind::Face && self.quads_only {
             return Some(one(4));
         }
-        let settled = self.settled_from(rule).filter(|settled| *settled <= MOST_CASES)?.max(least);
         let told = |n: &i64| self.is_told_at(rule.kind, *n, regular);
         // waves of frequency p alias at n <= p: try the tail from a little later on, and those n one by one
         let tail =
@@ -317,24 +322,33 @@ impl RuleBook {
         place: &Place<Laurent>,
         size: RingSize,
     ) -> Option<Laurent> {
-        let whole_ring = entry.picks.is_none() && entry.position.walks.len() == 1 && !entry.position.once;
-        let around = matches!(kind.variable(), Some("n"));
-        match self.select(&entry.weights, place).ok()? {
-            Weights::Each(placed) if whole_ring && around => {
+        let weights = self.select(&entry.weights, place).ok()?;
+        let counts_nothing = entry.position.once || kind.variable().is_none();
+        if counts_nothing || matches!(size, RingSize::Exactly(_)) && entry.picks.is_some() {
+            return self.sum_of_points(entry, kind, place);
+        }
+        // here n (or k) may be free: no weight may see the number of points that happens to be at hand
+        match (weights, &entry.picks) {
+            (Weights::Each(placed), None) if kind.variable() == Some("n") && entry.position.walks.len() == 1 => {
                 let at = Place { index: Laurent::atom("j"), ..place.clone() };
                 self.evaluate(placed, &at).ok()?.sum_over_ring(size)
             }
-            Weights::List(..) if matches!(size, RingSize::From(_)) && entry.picks.is_none() => None,
-            _ => {
-                let free = matches!(size, RingSize::From(_)) && around;
-                let points = class_size(entry, kind, place.count);
-                if free && entry.picks.is_none() && !entry.position.once {
-                    return None;
-                }
-                let weights = self.weights(entry, points, place).ok()?;
-                weights.iter().try_fold(Laurent::whole(0), |sum, (_, weight)| sum.plus(weight)).ok()
+            (Weights::Each(placed), None) if kind.variable() == Some("k") && !self.uses_index(&placed.formula) => {
+                let points = place.value.plus(&Laurent::whole(1)).ok()?;
+                self.evaluate(placed, place).ok()?.times(&points).ok()
             }
+            (Weights::Each(placed), Some(picks)) if !self.uses_index(&placed.formula) => {
+                self.evaluate(placed, place).ok()?.times(&Laurent::whole(picks.len() as i64)).ok()
+            }
+            _ if matches!(size, RingSize::Exactly(_)) => self.sum_of_points(entry, kind, place),
+            _ => None,
         }
+    }
+
+    /// The sum over the points of a class whose number is known.
+    fn sum_of_points(&self, entry: &Entry, kind: RuleKind, place: &Place<Laurent>) -> Option<Laurent> {
+        let weights = self.weights(entry, class_size(entry, kind, place.count), place).ok()?;
+        weights.iter().try_fold(Laurent::whole(0), |sum, (_, weight)| sum.plus(weight)).ok()
     }
 }
 

@@ -1,23 +1,34 @@
 //! Does the analysis agree with what the literature says?
 
-use super::{Evidence, Verdict, bound};
+use super::{Evidence, Verdict, bound, digits};
 use crate::analysis::Analysis;
+use crate::analysis::spectrum::{Eigenvalue, NEAR};
 use crate::fault::Fault;
 use crate::scheme::{Claim, Place, Quantity, Scheme};
 use serde::{Deserialize, Serialize};
 
-/// Approximate values that differ by less are said to agree.
+/// Approximate values that differ by less are said to agree, unless the claim is a decimal: then half a unit of its last digit.
 const AGREE: f64 = 1e-12;
+
+/// How far the value may be off that is claimed by this formula.
+fn tolerance(formula: &str) -> f64 {
+    match formula.trim().split_once('.') {
+        Some((whole, digits)) if format!("{whole}{digits}").bytes().all(|byte| byte.is_ascii_digit()) => {
+            AGREE + 0.5 * libm::pow(10.0, -(digits.len() as f64))
+        }
+        _ => AGREE,
+    }
+}
 
 /// What became of a claim. None of it is a proof: the values compared are approximate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
-    /// The values agree to rounding, or the evidence speaks for it, at every valence where it is made.
+    /// The values agree, to rounding or to the digits given, at every valence where it is made.
     Agrees,
-    /// At some valence they differ, or the evidence speaks against it.
+    /// At some valence they differ, or the evidence speaks against a property.
     Disagrees,
-    /// It can't be told, or is made for none of these valences.
+    /// It can't be told: a property without a proof, a value that the analysis has not, or no valence where it is made.
     Undecided,
 }
 
@@ -70,9 +81,10 @@ fn check(
             let mut pairs = Vec::new();
             for (analysis, _) in &made {
                 let place = Place::<f64>::at(Some("n"), analysis.valence as i64);
-                pairs.push((found(analysis, &claim.quantity, orbit_of), scheme.book.evaluate(equals, &place)?));
+                let claimed = scheme.book.evaluate(equals, &place)?;
+                pairs.push((analysis.valence, found(analysis, &claim.quantity, orbit_of), claimed));
             }
-            compare(&pairs)
+            compare(&pairs, tolerance(equals.formula.text()))
         }
         None => property(&made, &claim.quantity),
     };
@@ -86,41 +98,50 @@ fn check(
     })
 }
 
-fn compare(pairs: &[(Option<f64>, f64)]) -> (Outcome, String) {
-    let differences: Option<Vec<f64>> =
-        pairs.iter().map(|(found, claimed)| Some((found.as_ref()? - claimed).abs())).collect();
-    let Some(differences) = differences else {
-        return (Outcome::Undecided, "the analysis has no such value at some valence".to_string());
-    };
-    let worst = differences.iter().copied().fold(0.0, f64::max);
-    let outcome = if worst <= AGREE { Outcome::Agrees } else { Outcome::Disagrees };
-    (outcome, format!("differs by {} (approximate)", bound(worst)))
+/// Compares (valence, found, claimed).
+fn compare(pairs: &[(usize, Option<f64>, f64)], tolerance: f64) -> (Outcome, String) {
+    let mut worst = (0, 0.0, 0.0, 0.0);
+    for (n, found, claimed) in pairs {
+        let Some(found) = found else {
+            return (Outcome::Undecided, format!("the analysis has no such value, or none sharp enough, at n = {n}"));
+        };
+        let difference = (found - claimed).abs();
+        if worst.0 == 0 || difference > worst.1 {
+            worst = (*n, difference, *found, *claimed);
+        }
+    }
+    let (n, difference, found, claimed) = worst;
+    if difference <= tolerance {
+        return (Outcome::Agrees, format!("differs by {} (approximate)", bound(difference)));
+    }
+    (Outcome::Disagrees, format!("at n = {n} it is {}, not {}", digits(found), digits(claimed)))
 }
 
 fn property(made: &[(&Analysis, &Vec<Verdict>)], quantity: &Quantity) -> (Outcome, String) {
     if *quantity != Quantity::C1 {
         return (Outcome::Undecided, "this property is not decided yet".to_string());
     }
-    let verdicts: Vec<Evidence> =
-        made.iter().flat_map(|(_, verdicts)| verdicts.iter().find(|v| v.claim == "C1")).map(|v| v.evidence).collect();
-    if verdicts.contains(&Evidence::Against) {
-        (Outcome::Disagrees, "evidence against it at some valence".to_string())
-    } else if verdicts.iter().all(|evidence| *evidence == Evidence::For) {
-        (Outcome::Agrees, "evidence for it at every valence; not proved".to_string())
-    } else {
-        (Outcome::Undecided, "not seen either way".to_string())
+    let evidence = |verdicts: &[Verdict]| verdicts.iter().find(|v| v.claim == "C1").map(|v| v.evidence);
+    let all: Vec<(usize, Option<Evidence>)> =
+        made.iter().map(|(a, verdicts)| (a.valence, evidence(verdicts))).collect();
+    let at = |wanted: Evidence| all.iter().find(|(_, own)| *own == Some(wanted)).map(|(n, _)| *n);
+    match (at(Evidence::Against), at(Evidence::None)) {
+        (Some(n), _) => (Outcome::Disagrees, format!("evidence against it at n = {n}")),
+        (None, Some(n)) => (Outcome::Undecided, format!("not seen either way at n = {n}")),
+        (None, None) => (Outcome::Undecided, "evidence for it at every valence; not proved".to_string()),
     }
 }
 
-/// The value of a quantity at a valence.
+/// The value of a quantity at a valence, where it is known to rounding: an eigenvalue of a cluster is not.
 fn found(analysis: &Analysis, quantity: &Quantity, orbit_of: &dyn Fn(&str) -> Option<(i32, i32)>) -> Option<f64> {
+    let sharp = |e: Eigenvalue| if e.approx_error <= NEAR { e.real() } else { None };
     match quantity {
-        Quantity::Subdominant => analysis.spectrum.subdominant()?.real(),
-        Quantity::Cup => analysis.classical.cup?.real(),
-        Quantity::Saddle => analysis.classical.saddle?.real(),
+        Quantity::Subdominant => sharp(analysis.spectrum.subdominant()?),
+        Quantity::Cup => sharp(analysis.classical.cup?),
+        Quantity::Saddle => sharp(analysis.classical.saddle?),
         Quantity::CurvatureRatio => {
-            let lambda = analysis.lambda?.value.re;
-            Some(analysis.spectrum.after_subdominant().next()?.modulus() / (lambda * lambda))
+            let (lambda, mu) = (analysis.lambda?.value.re, analysis.spectrum.after_subdominant().next()?);
+            (mu.approx_error <= NEAR).then_some(mu.modulus() / (lambda * lambda))
         }
         Quantity::Limit(position) => {
             let mask = analysis.limit_mask.as_ref()?;

@@ -51,7 +51,7 @@ fn point(analysis: &Analysis) -> Option<Point> {
     let lambda = analysis.lambda?.value.re;
     let mu = analysis.spectrum.after_subdominant().next()?;
     let ratio = mu.modulus() / (lambda * lambda);
-    Some(Point { valence: analysis.valence, ratio, class: curvature_class(ratio, mu.approx_error()) })
+    Some(Point { valence: analysis.valence, ratio, class: curvature_class(ratio, mu.approx_error) })
 }
 
 /// From below the least to above the largest of the ratios and 1; 1 keeps a fifth of the height from either end.
