@@ -94,5 +94,11 @@ impl std::error::Error for Faults {}
 /// The word of a list that the user may have meant, if one is near.
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let near = |other: &str| strsim::damerau_levenshtein(&word.to_lowercase(), &other.to_lowercase());
-    known.into_iter().map(|other| (near(other), other)).filter(|(d, o)| *d <= 1 + o.len() / 4).min().map(|(_, o)| o)
+    let few = |distance: usize, other: &str| distance * 3 <= word.chars().count().max(other.chars().count());
+    known
+        .into_iter()
+        .map(|other| (near(other), other))
+        .filter(|(d, other)| few(*d, other))
+        .min()
+        .map(|(_, other)| other)
 }

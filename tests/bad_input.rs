@@ -527,7 +527,7 @@ fn wrong_arguments() {
         (&["analyze", "loop", "--format", "pdf"], &["pdf", "json"]),
         (&["analyze", "loop", "--out", "there.toml"], &["`there.toml`"]),
         (&["analyze", "loop", "--out", "there.toml/below"], &["there.toml/below"]),
-        (&["matrix", "loop", "-n", "2"], &["from 3 to 100000, not 2"]),
+        (&["matrix", "loop", "-n", "2"], &["at least 3, not 2"]),
         (&["matrix", "loop", "-n", "5", "--block", "5"], &["no block 5", "0 to 4"]),
         (&["matrix", "loop", "-n", "5", "--block=-1"], &["-1"]),
         (&["matrix", "loop", "-n", "1000"], &["--format mtx", "--block"]),

@@ -33,7 +33,7 @@ pub(crate) struct Analyze {
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print one form of the report on standard output and write no files
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, conflicts_with_all = ["out", "no_pictures"])]
     format: Option<Format>,
     /// Write no pictures
     #[arg(long)]

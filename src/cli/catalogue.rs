@@ -84,14 +84,21 @@ impl New {
         }
         write_whole(&path, starter(listed.text, &title, &self.like).as_bytes())
             .map_err(|error| failure(format!("`{}` can't be written: {error}", path.display())))?;
-        print(&format!("Written: {0}\nNow try: eigenring analyze {0} --valence 3..12\n", path.display()))
+        let shown = path.display().to_string();
+        let quoted = if shown.contains(char::is_whitespace) { format!("\"{shown}\"") } else { shown.clone() };
+        print(&format!("Written: {shown}\nNow try: eigenring analyze {quoted} --valence 3..12\n"))
     }
 }
 
 /// The file of the catalogue under a new name, with a word on what may be changed, and without its claims.
 fn starter(text: &str, title: &str, like: &str) -> String {
-    let body: Vec<&str> =
-        text.split("[[claims]]").next().unwrap_or(text).lines().filter(|line| !line.starts_with('#')).collect();
+    let body: Vec<&str> = text
+        .split("[[claims]]")
+        .next()
+        .unwrap_or(text)
+        .lines()
+        .filter(|line| !line.starts_with('#') && !line.starts_with("source"))
+        .collect();
     let named: Vec<String> = body
         .iter()
         .map(|line| if line.starts_with("name ") { format!("name     = \"{title}\"") } else { (*line).to_string() })

@@ -2,11 +2,12 @@
 
 use super::analyze::explain;
 use super::open::open_checked;
+use super::valences::one_valence;
 use super::{Failure, failure, print};
 use clap::{Args, ValueEnum};
 use eigenring::analysis::Analyzer;
 use eigenring::analysis::blocks::Blocks;
-use eigenring::analysis::local::{LocalMatrix, MAX_DENSE, MAX_VALENCE};
+use eigenring::analysis::local::{LocalMatrix, MAX_DENSE};
 use num_complex::Complex64;
 use serde_json::json;
 use std::fmt::Write;
@@ -23,7 +24,7 @@ pub(crate) struct Matrix {
     /// A scheme of the catalogue, or the path of a scheme file
     scheme: String,
     /// The valence n
-    #[arg(long, short = 'n', value_name = "N")]
+    #[arg(long, short = 'n', value_name = "N", value_parser = one_valence)]
     valence: usize,
     /// The frequency k, 0..n-1: print the block B_k
     #[arg(long, short, value_name = "K")]
@@ -58,9 +59,6 @@ struct Labelled {
 
 impl Matrix {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        if !(3..=MAX_VALENCE).contains(&self.valence) {
-            return Err(failure(format!("the valence must be from 3 to {MAX_VALENCE}, not {}", self.valence)));
-        }
         if let Some(k) = self.block.filter(|k| *k >= self.valence) {
             return Err(failure(format!(
                 "the blocks at n = {} are 0 to {}; there is no block {k}",
@@ -128,7 +126,9 @@ impl Labelled {
 
     fn cell(&self, value: Complex64, decimals: usize) -> String {
         let re = format!("{:.decimals$}", value.re + 0.0);
-        if self.is_complex && value.im != 0.0 { format!("{re}{:+.decimals$}i", value.im) } else { re }
+        let im = format!("{:+.decimals$}i", value.im);
+        let none = !im.contains(|c: char| c.is_ascii_digit() && c != '0');
+        if self.is_complex && !none { re + &im } else { re }
     }
 }
 

@@ -1,7 +1,7 @@
 //! What does the user ask for?
 //!
-//! One file a command. Everything that is printed is printed here; exit status 0 means done, 1 that a check says no, 2 bad
-//! usage or bad input.
+//! One file a command. Everything that is printed is printed here; exit status 0 means done, 2 bad usage or bad
+//! input; 1 is kept for checks that say no.
 
 mod analyze;
 mod catalogue;
@@ -23,7 +23,7 @@ const EXAMPLES: &str = "Examples:
   eigenring new my-scheme --like loop              start a scheme file
   eigenring matrix loop --valence 5 --block 1      a block of the local subdivision matrix
 
-Exit status: 0 done, 1 a check says no, 2 bad usage or bad input.";
+Exit status: 0 done, 2 bad usage or bad input (1 is kept for checks that say no).";
 
 /// Analyses subdivision schemes: local matrices at any valence, spectra, masks, characteristic maps, smoothness conditions.
 #[derive(Parser)]

@@ -14,10 +14,15 @@ pub(crate) fn open(name: &str, settings: &[String]) -> Result<Scheme, Failure> {
         Some(scheme) => scheme?,
         None => Scheme::parse(&short_name(name), name, &read(name)?)?,
     };
+    let mut set: Vec<&str> = Vec::new();
     for setting in settings {
         let (parameter, value) = setting
             .split_once('=')
             .ok_or_else(|| failure(format!("--set takes name=value, for example --set w=1/32, not `{setting}`")))?;
+        if set.contains(&parameter.trim()) {
+            return Err(failure(format!("`{}` is set twice", parameter.trim())));
+        }
+        set.push(parameter.trim());
         scheme.set(parameter.trim(), value.trim()).map_err(failure)?;
     }
     Ok(scheme)

@@ -39,6 +39,14 @@ impl FromStr for Valences {
     }
 }
 
+/// A single valence.
+pub(crate) fn one_valence(text: &str) -> Result<usize, String> {
+    if text.contains(',') || text.contains("..") {
+        return Err(format!("`{text}` is a list; the matrix is that of one valence"));
+    }
+    valence(text, text)
+}
+
 fn valence(part: &str, text: &str) -> Result<usize, String> {
     let part = part.trim();
     if part.is_empty() {

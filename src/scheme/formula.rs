@@ -302,7 +302,12 @@ impl<'a> Parser<'a> {
             Token::End => ("the formula ends here".to_string(), self.end_span()),
             _ => (format!("found `{}`", &self.text[self.span.clone()]), self.span.clone()),
         };
-        Fault::at(span, format!("the formula needs {wanted}"), found).hint(GRAMMAR)
+        let hint = match &self.token {
+            Token::Word(_) => "a product needs its `*`: 2*pi*j, not 2 pi j",
+            Token::Sign('*') => "a power is written with `^`",
+            _ => GRAMMAR,
+        };
+        Fault::at(span, format!("the formula needs {wanted}"), found).hint(hint)
     }
 
     /// The last character, for a caret at the end.

@@ -113,11 +113,13 @@ impl RuleBook {
 struct Reader<'t> {
     text: &'t str,
     faults: Vec<Fault>,
+    /// Names under [let] and [parameters] whose own formulas are at fault: not unknown where they are used.
+    broken: BTreeSet<String>,
 }
 
 impl<'t> Reader<'t> {
     fn new(text: &'t str) -> Self {
-        Reader { text, faults: Vec::new() }
+        Reader { text, faults: Vec::new(), broken: BTreeSet::new() }
     }
 
     fn into_faults(mut self, origin: &str) -> Faults {
@@ -352,7 +354,15 @@ impl<'t> Reader<'t> {
             return Vec::new();
         };
         let items = self.in_order(table);
-        items.into_iter().filter_map(|item| self.parameter(item)).collect()
+        let mut parameters = Vec::new();
+        for item in items {
+            let name = item.0.to_string();
+            match self.parameter(item) {
+                Some(parameter) => parameters.push(parameter),
+                None => drop(self.broken.insert(name)),
+            }
+        }
+        parameters
     }
 
     fn parameter(&mut self, (name, span, value): Item) -> Option<Parameter> {
@@ -416,6 +426,9 @@ impl<'t> Reader<'t> {
         for (name, span, value) in self.in_order(table) {
             self.check_new_name(name, &span);
             let told = self.cases(value.get_ref(), &value.span(), Self::formula);
+            if told.is_none() {
+                self.broken.insert(name.to_string());
+            }
             lets.extend(told.map(|value| Let { name: name.to_string(), value, uses_index: false }));
         }
         lets
@@ -505,6 +518,9 @@ impl<'t> Reader<'t> {
     }
 
     fn unknown_name(&mut self, name: &str, span: Range<usize>, known: &BTreeSet<&str>) {
+        if self.broken.contains(name) {
+            return;
+        }
         let fault = Fault::at(span, format!("the name `{name}` is not known here"), "unknown name");
         if self.faults.len() >= MOST_HINTED {
             self.faults.push(fault);
@@ -512,6 +528,9 @@ impl<'t> Reader<'t> {
         }
         let functions = Function::ALL.iter().map(|(function, ..)| *function);
         let hint = match nearest(name, known.iter().copied().chain(functions).chain(["pi"])) {
+            _ if name == "n" => {
+                "this rule is told from no vertex; [edge.from-irregular-end] has n, the valence of that end".to_string()
+            }
             Some(near) => format!("did you mean `{near}`?"),
             None if known.is_empty() => "only numbers and pi have a value here".to_string(),
             None => format!("known here: pi, {}", known.iter().copied().collect::<Vec<_>>().join(", ")),

@@ -145,7 +145,8 @@ impl<'a> Formulas<'a> {
         }
         for parameter in &self.book.parameters {
             let value = pretty(parameter.value.formula.text());
-            notes.push(format!("{} = {value}: {}", name(&parameter.name), parameter.means));
+            let means = if parameter.means.is_empty() { String::new() } else { format!(": {}", parameter.means) };
+            notes.push(format!("{} = {value}{means}", name(&parameter.name)));
         }
         notes
     }

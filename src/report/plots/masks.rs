@@ -80,9 +80,11 @@ fn caption(valence: usize) -> String {
     )
 }
 
-/// The first valence that is not the regular one, else the first; the smallest where that one is too large for numbers.
+/// The first valence with tangent masks that is not the regular one, else the first that is not, else the first; the smallest
+/// where that one is too large for numbers.
 fn chosen(lattice: Lattice, analyses: &[Analysis]) -> Option<&Analysis> {
-    let irregular = analyses.iter().find(|analysis| analysis.valence != lattice.regular_valence());
+    let irregular = || analyses.iter().filter(|analysis| analysis.valence != lattice.regular_valence());
+    let irregular = irregular().find(|analysis| analysis.tangent_masks.is_some()).or(irregular().next());
     let first = irregular.or(analyses.first())?;
     let smallest = analyses.iter().min_by_key(|analysis| analysis.valence)?;
     Some(if first.valence > MAX_NUMBERED && smallest.valence <= MAX_NUMBERED { smallest } else { first })
