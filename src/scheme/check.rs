@@ -6,7 +6,7 @@
 use super::evaluate::Place;
 use super::formula::{Condition, Formula};
 use super::vocabulary::RuleKind;
-use super::{Cases, Entry, Parameter, Rule, RuleBook, Scheme, Weights};
+use super::{Entry, Parameter, Rule, RuleBook, Scheme, Weights};
 use crate::fault::{Fault, Faults};
 use crate::numbers::{Laurent, Number, RingSize};
 use std::collections::BTreeSet;
@@ -156,12 +156,6 @@ impl RuleBook {
 
     /// The conditions that decide a rule's weights, through names as well, each list with its place.
     fn case_lists<'a>(&'a self, rule: &'a Rule) -> Vec<Vec<(&'a Condition, &'a Range<usize>)>> {
-        fn list<T>(cases: &Cases<T>) -> Vec<(&Condition, &Range<usize>)> {
-            match cases {
-                Cases::Always(_) => Vec::new(),
-                Cases::When(cases) => cases.iter().map(|(condition, span, _)| (condition, span)).collect(),
-            }
-        }
         let mut names: BTreeSet<&str> = BTreeSet::new();
         for entry in &rule.entries {
             names.extend(entry_formulas(entry).flat_map(|placed| placed.formula.names()).map(|(name, _)| name));
@@ -171,8 +165,8 @@ impl RuleBook {
                 names.extend(own.value.values().iter().flat_map(|placed| placed.formula.names()).map(|(name, _)| name));
             }
         }
-        let entries = rule.entries.iter().map(|entry| list(&entry.weights));
-        let lets = self.lets.iter().filter(|own| names.contains(own.name.as_str())).map(|own| list(&own.value));
+        let entries = rule.entries.iter().map(|entry| entry.weights.conditions());
+        let lets = self.lets.iter().filter(|own| names.contains(own.name.as_str())).map(|own| own.value.conditions());
         entries.chain(lets).filter(|list| !list.is_empty()).collect()
     }
 

@@ -59,6 +59,14 @@ impl<T> Cases<T> {
             Cases::When(cases) => cases.iter().map(|(_, _, value)| value).collect(),
         }
     }
+
+    /// The conditions of the cases, each with its place.
+    pub fn conditions(&self) -> Vec<(&Condition, &Range<usize>)> {
+        match self {
+            Cases::Always(_) => Vec::new(),
+            Cases::When(cases) => cases.iter().map(|(condition, span, _)| (condition, span)).collect(),
+        }
+    }
 }
 
 /// The weights of a class of points.

@@ -1,0 +1,206 @@
+//! How is a scheme file read?
+//!
+//! TOML 1.0 with places kept. Every fault is collected and reading goes on, so that a user sees all of them at once. The
+//! keys are listed in [`KEYS`]; the README's table says what they mean, and a test holds the two together.
+
+mod claims;
+mod names;
+mod rules;
+mod values;
+
+use super::evaluate::Place;
+use super::formula::Formula;
+use super::vocabulary::{RuleKind, Vocabulary};
+use super::{Placed, RuleBook, Scheme, catalogue};
+use crate::fault::{Fault, Faults};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// The largest file that is read.
+pub const MAX_FILE_BYTES: usize = 1 << 16;
+
+/// Every key of a scheme file and of a boundary file, as the README's table lists them.
+pub const KEYS: [&str; 22] = [
+    "name",
+    "mesh",
+    "split",
+    "source",
+    "boundary",
+    "parameters",
+    "parameters.*.default",
+    "parameters.*.means",
+    "parameters.*.range",
+    "parameters.*.integer",
+    "let",
+    "vertex",
+    "edge",
+    "edge.from-irregular-end",
+    "face",
+    "corner",
+    "claims",
+    "claims.what",
+    "claims.where",
+    "claims.equals",
+    "claims.source",
+    "vertex.crease, vertex.corner, edge.crease",
+];
+
+const SCHEME_KEYS: [&str; 11] =
+    ["name", "mesh", "split", "source", "boundary", "parameters", "let", "vertex", "edge", "face", "corner"];
+const BOUNDARY_KEYS: [&str; 6] = ["name", "source", "parameters", "let", "vertex", "edge"];
+const MESHES: [&str; 3] = ["triangles", "quads", "polygons"];
+
+type Item<'a, 'i> = (&'a str, Range<usize>, &'a Spanned<DeValue<'i>>);
+
+impl Scheme {
+    /// Reads a scheme file: `id` is its short name, `origin` its name in messages.
+    ///
+    /// # Errors
+    /// All faults that reading finds. Sums, cases and symmetry are checked after: [`Scheme::check`],
+    /// [`crate::refine::check_symmetry`].
+    pub fn parse(id: &str, origin: &str, text: &str) -> Result<Scheme, Faults> {
+        let mut reader = Reader::new(text);
+        let scheme = reader.scheme(id, origin);
+        match scheme {
+            Some(scheme) if reader.faults.is_empty() => Ok(scheme),
+            _ => Err(reader.into_faults(origin)),
+        }
+    }
+
+    /// Sets a parameter, as `--set name=value` does.
+    ///
+    /// # Errors
+    /// Why it can't be set, in words.
+    pub fn set(&mut self, name: &str, given: &str) -> Result<(), String> {
+        let known: Vec<String> = self.book.parameters.iter().map(|p| p.name.clone()).collect();
+        let Some(parameter) = self.book.parameters.iter_mut().find(|p| p.name == name) else {
+            return Err(match known.as_slice() {
+                [] => format!("{} has no parameters, so `{name}` can't be set", self.book.title),
+                _ => format!("{} has no parameter `{name}`; it has {}", self.book.title, known.join(", ")),
+            });
+        };
+        let formula = Formula::parse(given).map_err(|fault| format!("`{name}={given}`: {}", fault.message))?;
+        if let Some((used, _)) = formula.names().next() {
+            return Err(format!("`{name}={given}`: a parameter's value is a number, and `{used}` is a name"));
+        }
+        let value = Placed { formula, span: parameter.span.clone(), start: None };
+        parameter.value = value.clone();
+        let evaluated = self.book.evaluate::<f64>(&value, &Place::at(None, 0));
+        evaluated.map(|_| ()).map_err(|fault| format!("`{name}={given}`: {}", fault.message))
+    }
+}
+
+impl RuleBook {
+    /// Reads a boundary file for one kind of mesh.
+    ///
+    /// # Errors
+    /// All its faults.
+    pub fn parse_boundary(origin: &str, text: &str, mesh: &str) -> Result<RuleBook, Faults> {
+        let mut reader = Reader::new(text);
+        let book = reader.boundary(origin, mesh);
+        match book {
+            Some(book) if reader.faults.is_empty() => Ok(book),
+            _ => Err(reader.into_faults(origin)),
+        }
+    }
+}
+
+struct Reader<'t> {
+    text: &'t str,
+    faults: Vec<Fault>,
+    /// Names under [let] and [parameters] whose own formulas are at fault: not unknown where they are used.
+    broken: BTreeSet<String>,
+}
+
+impl<'t> Reader<'t> {
+    fn new(text: &'t str) -> Self {
+        Reader { text, faults: Vec::new(), broken: BTreeSet::new() }
+    }
+
+    fn into_faults(mut self, origin: &str) -> Faults {
+        if self.faults.is_empty() {
+            self.faults.push(Fault::whole("the file is not a scheme"));
+        }
+        self.faults.sort_by_key(|fault| fault.span.as_ref().map_or(0, |span| span.start));
+        Faults { origin: origin.to_string(), text: self.text.to_string(), faults: self.faults }
+    }
+
+    /// The file's top table; `None` when it can't be read as TOML.
+    fn top(&mut self) -> Option<Spanned<DeTable<'t>>> {
+        if self.text.len() > MAX_FILE_BYTES {
+            let message = format!("the file has {} bytes; the limit is {MAX_FILE_BYTES}", self.text.len());
+            self.faults.push(Fault::whole(message));
+            return None;
+        }
+        let (table, errors) = DeTable::parse_recoverable(self.text);
+        for error in &errors {
+            let span = error.span().unwrap_or(0..0);
+            self.faults.push(Fault::at(span, error.message().trim().to_string(), "not TOML"));
+        }
+        errors.is_empty().then_some(table)
+    }
+
+    fn scheme(&mut self, id: &str, origin: &str) -> Option<Scheme> {
+        let top = self.top()?;
+        let known: Vec<&str> = SCHEME_KEYS.iter().copied().chain(["claims"]).collect();
+        let items = self.items(top.get_ref(), &known, "a scheme file");
+        let mesh = self.choice(&items, "mesh", &MESHES);
+        let vocabulary = Vocabulary::get();
+        let splits: Vec<&str> = vocabulary.splits.keys().map(String::as_str).collect();
+        let split = self.choice(&items, "split", &splits);
+        if let (Some(mesh), Some(split)) = (&mesh, &split) {
+            self.check_split(&items, mesh, split);
+        }
+        let boundary = self.words(&items, "boundary");
+        for (name, span) in &boundary {
+            if !catalogue::BOUNDARIES.iter().any(|listed| listed.id == name) {
+                let names: Vec<&str> = catalogue::BOUNDARIES.iter().map(|listed| listed.id).collect();
+                let fault = Fault::at(span.clone(), format!("there is no boundary file `{name}`"), "unknown");
+                self.faults.push(fault.hint(format!("the boundary files are {}", names.join(", "))));
+            }
+        }
+        let book = self.book(&items, origin, mesh.as_deref(), false)?;
+        if let (Some(split), Some((_, span))) = (&split, self.find(&items, "split")) {
+            self.check_births(&book, split, span);
+        }
+        let claims = self.claims(&items, &book);
+        let boundary = boundary.into_iter().map(|(name, _)| name).collect();
+        Some(Scheme { id: id.to_string(), book, mesh: mesh?, split: split?, boundary, claims })
+    }
+
+    fn boundary(&mut self, origin: &str, mesh: &str) -> Option<RuleBook> {
+        let top = self.top()?;
+        let items = self.items(top.get_ref(), &BOUNDARY_KEYS, "a boundary file");
+        self.book(&items, origin, Some(mesh), true)
+    }
+
+    fn book(&mut self, items: &[Item], origin: &str, mesh: Option<&str>, boundary: bool) -> Option<RuleBook> {
+        let title = self.find(items, "name").and_then(|(value, span)| self.string(value, &span));
+        if title.is_none() && self.find(items, "name").is_none() {
+            self.faults.push(Fault::whole("the key `name` is missing").hint("write name = \"My scheme\""));
+        }
+        let sources = self.words(items, "source").into_iter().map(|(word, _)| word).collect();
+        let parameters = self.parameters(items);
+        let mut lets = self.lets(items);
+        self.check_lets(&mut lets, &parameters);
+        let mut book = RuleBook {
+            origin: origin.to_string(),
+            text: self.text.to_string(),
+            title: title.unwrap_or_default(),
+            sources,
+            parameters,
+            lets,
+            rules: BTreeMap::new(),
+            quads_only: mesh == Some("quads"),
+        };
+        for (key, span, value) in items {
+            let kind = RuleKind::ALL.iter().find(|(name, _)| name == key).map(|(_, kind)| *kind);
+            if let Some(kind) = kind {
+                self.rule(&mut book, kind, span, value, mesh, boundary);
+            }
+        }
+        Some(book)
+    }
+}
