@@ -75,3 +75,11 @@ fn the_json_contract_names_every_key() {
     }
     assert!(keys.len() > 30);
 }
+
+/// The example is what the program prints.
+#[test]
+fn the_example_is_true() {
+    let scheme = catalogue::open("loop").unwrap().unwrap();
+    let study = Study::of(&scheme, &(3..=12).collect::<Vec<_>>(), false, &|| ()).unwrap();
+    assert!(README.contains(&eigenring::report::terminal(&study.report)));
+}

@@ -9,7 +9,7 @@ use crate::analysis::{Analysis, Analyzer};
 use crate::mesh::Label;
 use crate::refine::{Obstacle, OrbitNames, Refinement};
 use crate::scheme::{RuleSum, Scheme, catalogue};
-use crate::verdicts::{ClaimCheck, Verdict, bound, check_claims, verdicts};
+use crate::verdicts::{ClaimCheck, CurvatureClass, Verdict, bound, check_claims, curvature_class, verdicts};
 use num_complex::Complex64;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -151,9 +151,9 @@ pub struct SubsubdominantReport {
     pub ratio: Option<f64>,
     /// The size of the largest Jordan block; null while arithmetic is approximate.
     pub jordan: Option<usize>,
-    /// How far the modulus may be off, by the estimate that clusters are told by.
+    /// What the ratio says of curvature, for tables; `None` where lambda doesn't dominate.
     #[serde(skip)]
-    pub approx_error: f64,
+    pub class: Option<CurvatureClass>,
 }
 
 /// The eigenvalues of the classical test.
@@ -354,7 +354,8 @@ fn subsubdominant_report(analysis: &Analysis) -> Option<SubsubdominantReport> {
     frequencies.dedup();
     let lambda = analysis.lambda.map(|e| e.value.re);
     let ratio = lambda.map(|lambda| modulus / (lambda * lambda));
-    Some(SubsubdominantReport { modulus, frequencies, ratio, jordan: None, approx_error: first.approx_error })
+    let class = curvature_class(analysis).map(|(_, class)| class);
+    Some(SubsubdominantReport { modulus, frequencies, ratio, jordan: None, class })
 }
 
 fn mask_report(mask: &Mask, analysis: &Analysis, names: &OrbitNames) -> Vec<WeightReport> {

@@ -3,7 +3,7 @@
 //! Plain rows of words, in the order of a paper; Markdown and LaTeX print them.
 
 use super::model::{EigenvalueReport, Report, ValenceReport};
-use crate::verdicts::{Decision, Evidence, Outcome, Verdict, curvature_class, digits};
+use crate::verdicts::{CurvatureClass, Decision, Evidence, Outcome, Verdict, digits};
 
 /// Frequencies from this one on are left out of tables that have a column for each; the JSON and CSV forms have all.
 const MOST_FREQUENCIES: usize = 7;
@@ -101,7 +101,7 @@ fn overview(report: &Report) -> Table {
     ]);
     let row = |v: &ValenceReport| {
         let mu = v.subsubdominant.as_ref();
-        let ratio = mu.and_then(|mu| mu.ratio.map(|ratio| curvature_class(ratio, mu.approx_error).words()));
+        let class = mu.and_then(|mu| mu.class).map(CurvatureClass::words);
         vec![
             v.n.to_string(),
             v.size.to_string(),
@@ -110,7 +110,7 @@ fn overview(report: &Report) -> Table {
             or_dash(mu.map(|mu| mu.modulus)),
             mu.map_or("-".to_string(), |mu| list(&mu.frequencies)),
             or_dash(mu.and_then(|mu| mu.ratio)),
-            ratio.unwrap_or("-").to_string(),
+            class.unwrap_or("-").to_string(),
             or_dash(v.curvature.cup.as_ref().and_then(|e| e.ratio)),
             or_dash(v.curvature.saddle.as_ref().and_then(|e| e.ratio)),
         ]

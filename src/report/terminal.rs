@@ -2,7 +2,7 @@
 
 use super::model::{Report, ValenceReport};
 use super::tables::verdict_word;
-use crate::verdicts::{Outcome, curvature_class};
+use crate::verdicts::{CurvatureClass, Outcome};
 use std::fmt::Write;
 
 /// The most valences that the summary lists.
@@ -18,8 +18,8 @@ pub fn terminal(report: &Report) -> String {
     );
     let _ = writeln!(
         text,
-        "{:>6} {:>7} {:>14} {:>10} {:>9} {:>9} {:>10} {:>9}",
-        "n", "points", "lambda", "|mu|/l^2", "cup/l^2", "saddle", "curvature", "C1"
+        "{:>6} {:>6} {:>13} {:>10} {:>9} {:>10} {:>10} {:>9}",
+        "n", "points", "lambda", "|mu|/l^2", "cup/l^2", "saddle/l^2", "curvature", "C1"
     );
     let skipped = report.valences.len().saturating_sub(MOST_ROWS);
     let head = if skipped == 0 { report.valences.len() } else { MOST_ROWS - 2 };
@@ -56,13 +56,13 @@ pub fn terminal(report: &Report) -> String {
 fn row(v: &ValenceReport) -> String {
     let short = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.6}"));
     let mu = v.subsubdominant.as_ref();
-    let curvature = mu.and_then(|mu| mu.ratio.map(|ratio| curvature_class(ratio, mu.approx_error).words()));
+    let curvature = mu.and_then(|mu| mu.class).map(CurvatureClass::words);
     let c1 = v.verdicts.iter().find(|verdict| verdict.claim == "C1").map_or("-", verdict_word);
     let lambda = v.subdominant.as_ref().map_or("-".to_string(), |e| {
         if e.value[1] == 0.0 { format!("{:.10}", e.value[0]) } else { format!("{:.4}{:+.4}i", e.value[0], e.value[1]) }
     });
     format!(
-        "{:>6} {:>7} {:>14} {:>10} {:>9} {:>9} {:>10} {:>9}\n",
+        "{:>6} {:>6} {:>13} {:>10} {:>9} {:>10} {:>10} {:>9}\n",
         v.n,
         v.size,
         lambda,

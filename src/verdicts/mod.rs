@@ -269,15 +269,14 @@ fn curvature(analysis: &Analysis) -> Verdict {
     let states = "curvature at the extraordinary point is bounded, for generic control points: |mu| <= lambda^2 over the full \
                   neighbourhood, and at equality no Jordan block";
     let sources = ["doo-sabin-1978", "peters-reif-2008"];
-    let (Some(lambda), Some(mu)) = (analysis.lambda, analysis.spectrum.after_subdominant().next()) else {
+    if analysis.lambda.is_none() {
         return undecided("curvature", states, "none".to_string(), Evidence::None, &[no_map(analysis)], &sources);
-    };
-    let ratio = mu.modulus() / (lambda.value.re * lambda.value.re);
-    if below(mu.modulus(), lambda.value.re, mu.approx_error) != Evidence::For {
+    }
+    let Some((ratio, class)) = curvature_class(analysis) else {
         let why = "asked only where lambda dominates: it ties with mu as far as floating numbers see".to_string();
         return undecided("curvature", states, "none".to_string(), Evidence::None, &[why], &sources);
-    }
-    let (evidence, why) = match curvature_class(ratio, mu.approx_error) {
+    };
+    let (evidence, why) = match class {
         CurvatureClass::Diverges => (Evidence::Against, "above 1: curvature diverges"),
         CurvatureClass::Flat => (Evidence::For, "below 1: a flat point, where curvature tends to 0"),
         CurvatureClass::Tie => (
@@ -312,16 +311,19 @@ impl CurvatureClass {
     }
 }
 
-/// The class of a ratio whose eigenvalue may be off by `approx_error`.
-pub fn curvature_class(ratio: f64, approx_error: f64) -> CurvatureClass {
-    let tie = TIE.max(4.0 * approx_error);
-    if (ratio - 1.0).abs() <= tie {
-        CurvatureClass::Tie
-    } else if ratio > 1.0 {
-        CurvatureClass::Diverges
-    } else {
-        CurvatureClass::Flat
+/// |mu|/lambda^2 over the full neighbourhood with its class, where lambda is determined and dominates what follows.
+pub fn curvature_class(analysis: &Analysis) -> Option<(f64, CurvatureClass)> {
+    let (lambda, mu) = (analysis.lambda?.value.re, analysis.spectrum.after_subdominant().next()?);
+    if below(mu.modulus(), lambda, mu.approx_error) != Evidence::For {
+        return None;
     }
+    let ratio = mu.modulus() / (lambda * lambda);
+    let class = match below(ratio, 1.0, mu.approx_error / (lambda * lambda)) {
+        Evidence::None => CurvatureClass::Tie,
+        Evidence::For => CurvatureClass::Flat,
+        Evidence::Against => CurvatureClass::Diverges,
+    };
+    Some((ratio, class))
 }
 
 /// Ten decimals.

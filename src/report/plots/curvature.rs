@@ -48,10 +48,8 @@ fn left_out(count: usize) -> String {
 }
 
 fn point(analysis: &Analysis) -> Option<Point> {
-    let lambda = analysis.lambda?.value.re;
-    let mu = analysis.spectrum.after_subdominant().next()?;
-    let ratio = mu.modulus() / (lambda * lambda);
-    Some(Point { valence: analysis.valence, ratio, class: curvature_class(ratio, mu.approx_error) })
+    let (ratio, class) = curvature_class(analysis)?;
+    Some(Point { valence: analysis.valence, ratio, class })
 }
 
 /// From below the least to above the largest of the ratios and 1; 1 keeps a fifth of the height from either end.
@@ -98,7 +96,7 @@ mod tests {
     #[test]
     fn the_scale_holds_the_ratios_and_one_away_from_its_ends() {
         for ratios in [vec![], vec![1.0], vec![1.0, 2.0], vec![0.3, 0.9], vec![0.99, 5.0], vec![40.0]] {
-            let point = |ratio: &f64| Point { valence: 3, ratio: *ratio, class: curvature_class(*ratio, 0.0) };
+            let point = |ratio: &f64| Point { valence: 3, ratio: *ratio, class: CurvatureClass::Tie };
             let (low, high) = scale(&ratios.iter().map(point).collect::<Vec<_>>());
             assert!(ratios.iter().all(|ratio| low < *ratio && *ratio < high));
             let part = (1.0 - low) / (high - low);
