@@ -78,3 +78,43 @@ fn nothing_prints_below_the_command_line() {
         }
     }
 }
+
+/// Every function and type that docs/theory.md says applies a theorem exists, in the file of its module.
+#[test]
+fn the_theory_names_what_exists() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let theory = fs::read_to_string(root.join("docs/theory.md")).unwrap();
+    let sources: Vec<(PathBuf, String)> = rust_files(&root.join("src"))
+        .into_iter()
+        .map(|file| (file.clone(), fs::read_to_string(file).unwrap()))
+        .collect();
+    let mut seen = 0;
+    for name in theory.split('`').skip(1).step_by(2).filter(|word| word.contains("::")) {
+        let parts: Vec<&str> = name.split("::").collect();
+        let (item, module) = (parts[parts.len() - 1], parts[0]);
+        let defines = |text: &str| {
+            ["fn ", "struct ", "enum ", "pub mod "].iter().any(|word| text.contains(&format!("{word}{item}")))
+        };
+        let known = |(file, text): &(PathBuf, String)| {
+            let in_module = file.to_string_lossy().contains(&format!("src/{module}"));
+            (in_module || module.starts_with(char::is_uppercase)) && defines(text)
+        };
+        assert!(sources.iter().any(known), "{name}");
+        seen += 1;
+    }
+    assert!(seen >= 10, "{seen}");
+}
+
+/// Every source that docs/theory.md refers to is in the bibliography.
+#[test]
+fn the_theory_cites_known_sources() {
+    let theory = include_str!("../docs/theory.md");
+    let years = |word: &&str| {
+        word.len() > 5 && word.rsplit('-').next().is_some_and(|year| year.len() == 4 && year.parse::<u16>().is_ok())
+    };
+    let cited: Vec<&str> = theory.split(|c: char| !c.is_alphanumeric() && c != '-').filter(years).collect();
+    assert!(cited.len() >= 8);
+    for key in cited {
+        assert!(eigenring::scheme::catalogue::sources().contains_key(key), "{key}");
+    }
+}
