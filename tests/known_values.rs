@@ -161,3 +161,23 @@ fn a_wrong_digit_in_a_boundary_file_is_noticed() {
         }
     }
 }
+
+/// At large valences the closed forms hold as well: nothing gets lost in rings of many points.
+#[test]
+fn closed_forms_hold_at_large_valences() {
+    for (id, n) in [("loop", 20_000), ("catmull-clark", 20_000), ("doo-sabin", 3_001), ("loop-warren", 9_999)] {
+        let scheme = catalogue::open(id).unwrap().unwrap();
+        let sums = refine::check(&scheme, &[n]).unwrap_or_else(|faults| panic!("{faults}"));
+        assert!(sums.iter().all(|sum| sum.approx_deviation < 1e-14), "{sums:?}");
+        let analysis = Analyzer::new(&scheme).unwrap().at(n).unwrap();
+        let c = (std::f64::consts::TAU / n as f64).cos();
+        let lambda = match id {
+            "doo-sabin" => 0.5,
+            "catmull-clark" => (5.0 + c + ((c + 1.0) * (c + 9.0)).sqrt()) / 16.0,
+            _ => 0.375 + c / 4.0,
+        };
+        let found = analysis.spectrum.largest_of(1).unwrap().value.re;
+        assert!((found - lambda).abs() < 1e-13, "{id}: {found} and {lambda}");
+        assert!((analysis.spectrum.one().unwrap().value.re - 1.0).abs() < 1e-12, "{id}");
+    }
+}

@@ -13,7 +13,7 @@
 
 use super::local::{Entry, LocalMatrix};
 use super::neighbourhood::Orbit;
-use crate::numbers::RootsOfUnity;
+use crate::numbers::{RootsOfUnity, sum};
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 use rustfft::FftPlannerScalar;
@@ -270,15 +270,12 @@ fn units(node: Node) -> Vec<Complex64> {
 }
 
 fn centre_weight(row: &[Entry]) -> f64 {
-    row.iter().filter(|entry| entry.orbit.is_none()).map(|entry| entry.weight).sum()
+    sum(row.iter().filter(|entry| entry.orbit.is_none()).map(|entry| entry.weight))
 }
 
 fn centre_row(row: &[Entry], orbits: usize) -> Vec<f64> {
-    let mut sums = vec![0.0; orbits + 1];
-    for entry in row {
-        sums[entry.orbit.map_or(0, |orbit| orbit + 1)] += entry.weight;
-    }
-    sums
+    let of = |orbit: Option<usize>| sum(row.iter().filter(|entry| entry.orbit == orbit).map(|entry| entry.weight));
+    std::iter::once(of(None)).chain((0..orbits).map(|orbit| of(Some(orbit)))).collect()
 }
 
 fn waves(row: &[Entry], orbits: usize, n: usize, planner: &mut FftPlannerScalar<f64>) -> Vec<Wave> {

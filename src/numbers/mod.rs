@@ -8,9 +8,11 @@
 mod approximate;
 mod laurent;
 mod roots_of_unity;
+mod sum;
 
 pub use laurent::{Laurent, RingSize};
 pub use roots_of_unity::RootsOfUnity;
+pub use sum::sum;
 
 use dashu_ratio::RBig;
 use std::cmp::Ordering;

@@ -342,13 +342,20 @@ fn add_scaled<P: Copy, W: Number>(sum: &mut Vec<(P, W)>, row: &Row<P, W>, factor
 /// Weights that fall on one point add up.
 fn collected<P: Copy + Ord, W: Number>(mut sum: Vec<(P, W)>) -> Result<Row<P, W>, Obstacle> {
     sum.sort_by_key(|(point, _)| *point);
-    let mut row: Row<P, W> = Vec::with_capacity(sum.len());
-    for (point, weight) in sum {
-        match row.last_mut() {
-            Some((last, total)) if *last == point => *total = total.plus(&weight)?,
-            _ => row.push((point, weight)),
-        }
-    }
+    let groups = sum.chunk_by(|(a, _), (b, _)| a == b);
+    let mut row: Row<P, W> = groups.map(|group| Ok((group[0].0, by_halves(group)?))).collect::<Result<_, Trouble>>()?;
     row.retain(|(_, weight)| !weight.is_certainly_zero());
     Ok(row)
+}
+
+/// A sum by halves: its rounding grows with the logarithm of the number of terms only.
+fn by_halves<P, W: Number>(terms: &[(P, W)]) -> Result<W, Trouble> {
+    match terms {
+        [] => Ok(W::whole(0)),
+        [(_, weight)] => Ok(weight.clone()),
+        _ => {
+            let (left, right) = terms.split_at(terms.len() / 2);
+            by_halves(left)?.plus(&by_halves(right)?)
+        }
+    }
 }

@@ -323,9 +323,17 @@ fn valence_report(analysis: &Analysis, verdicts: &[Verdict], names: &OrbitNames)
         residual: ResidualReport { bound: bound(residual), vectors },
         verdicts: verdicts.to_vec(),
         rule_weights: rule_weights(analysis, names),
-        largest: (0..=n / 2).map(|k| analysis.spectrum.largest_of(k).map(|e| pair(e.value))).collect(),
+        largest: largest_by_frequency(analysis),
         amplitudes: amplitudes(analysis, names),
     }
+}
+
+fn largest_by_frequency(analysis: &Analysis) -> Vec<Option<[f64; 2]>> {
+    let mut largest = vec![None; analysis.valence / 2 + 1];
+    for e in analysis.spectrum.after_one() {
+        largest[e.frequency].get_or_insert(pair(e.value));
+    }
+    largest
 }
 
 /// Without negative zeros.

@@ -8,7 +8,7 @@ use super::formula::{Condition, Formula};
 use super::vocabulary::RuleKind;
 use super::{Entry, Parameter, Rule, RuleBook, Scheme, Weights};
 use crate::fault::{Fault, Faults};
-use crate::numbers::{Laurent, Number, RingSize};
+use crate::numbers::{Laurent, Number, RingSize, sum};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -260,14 +260,12 @@ impl RuleBook {
 
     fn approx_sum(&self, rule: &Rule, count: i64) -> Result<(f64, f64), Fault> {
         let place = Place::<f64>::at(rule.kind.variable(), count);
-        let (mut sum, mut moduli) = (0.0, 0.0);
+        let mut weights = Vec::new();
         for entry in &rule.entries {
-            for (_, weight) in self.weights(entry, class_size(entry, rule.kind, count), &place)? {
-                sum += weight;
-                moduli += weight.abs();
-            }
+            let own = self.weights(entry, class_size(entry, rule.kind, count), &place)?;
+            weights.extend(own.into_iter().map(|(_, weight)| weight));
         }
-        Ok((sum, moduli))
+        Ok((sum(weights.iter().copied()), sum(weights.iter().map(|weight| weight.abs()))))
     }
 
     /// Whether the sum is 1 for every n from 3 on, as an identity; `None` where that can't be shown this way.
