@@ -75,10 +75,11 @@ impl Spectrum {
     pub fn of(blocks: &Blocks, cores: &Cores) -> Result<Spectrum, Obstacle> {
         let valence = blocks.valence();
         let mut eigenvalues = Vec::with_capacity((valence / 2 + 1) * blocks.orbits.len());
+        let nodes = [0, 1].map(|k| (0..cores.cores.len()).map(|core| cores.nodes(core, k)).collect::<Vec<_>>());
         for frequency in 0..=valence / 2 {
             let start = eigenvalues.len();
-            for core in 0..cores.cores.len() {
-                let form = blocks.real_form(frequency, &cores.nodes(core, frequency));
+            for (core, nodes) in nodes[frequency.min(1)].iter().enumerate() {
+                let form = blocks.real_form(frequency, nodes);
                 let values = eigenvalues_of(&form)?;
                 if values.iter().any(|value| !modulus(*value).is_finite()) {
                     return Err(Obstacle::Limit("an eigenvalue is too large to be computed".to_string()));
@@ -217,11 +218,18 @@ fn error_estimates(form: &DMatrix<f64>, values: &[Complex64]) -> Result<Vec<f64>
 /// Joins, among the eigenvalues of one frequency, those that are approximately equal: of one core where their errors may make up for
 /// their distance, of different cores where they are nearer than [`NEAR`]. Those of one core take their mean.
 fn find_clusters(eigenvalues: &mut [Eigenvalue]) {
-    let all: Vec<Eigenvalue> = eigenvalues.to_vec();
     let joined = |a: &Eigenvalue, b: &Eigenvalue| {
         let radius = if a.core == b.core { a.approx_error.max(b.approx_error) } else { NEAR };
         modulus(a.value - b.value) <= radius
     };
+    for (index, e) in eigenvalues.iter_mut().enumerate() {
+        e.group = index;
+    }
+    let apart = |(index, e): (usize, &Eigenvalue)| eigenvalues[..index].iter().all(|other| !joined(e, other));
+    if eigenvalues.iter().enumerate().all(apart) {
+        return;
+    }
+    let all: Vec<Eigenvalue> = eigenvalues.to_vec();
     let mut groups: Vec<usize> = (0..all.len()).collect();
     for a in 0..all.len() {
         for b in 0..a {
