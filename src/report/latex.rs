@@ -58,7 +58,11 @@ fn rows(table: &Table) -> String {
     let line =
         |row: &Vec<String>| format!("{} \\\\\n", row.iter().map(|cell| escaped(cell)).collect::<Vec<_>>().join(" & "));
     let body: String = table.rows.iter().map(line).collect();
-    let size = if count > 7 { "\\scriptsize" } else { "\\footnotesize" };
+    let size = match count {
+        0..=7 => "\\footnotesize",
+        8..=10 => "\\scriptsize",
+        _ => "\\tiny",
+    };
     let (environment, endhead) =
         if table.rows.len() > MOST_ROWS_ON_A_PAGE { ("longtable", "\\endhead\n") } else { ("tabular", "") };
     let head = line(&table.head);
