@@ -62,3 +62,33 @@ fn a_tie_is_left_open() {
     assert_eq!(curvature.evidence, eigenring::verdicts::Evidence::None);
     assert_eq!(evidence(1), eigenring::verdicts::Evidence::For);
 }
+
+/// The 8-point butterfly with w = 0.13: its derivatives grow without bound on regular meshes already. No irregular valence may then be
+/// said to look C1.
+#[test]
+fn a_scheme_that_fails_on_regular_meshes_fails_everywhere() {
+    let text = r#"
+name  = "Butterfly with a large tension"
+mesh  = "triangles"
+split = "1-to-4"
+
+[parameters]
+w8 = "0.13"
+
+[vertex]
+centre = "1"
+
+[edge]
+ends     = "1/2"
+opposite = "2*w8"
+wings    = "-w8"
+"#;
+    let scheme = Scheme::parse("butterfly", "butterfly.toml", text).unwrap_or_else(|faults| panic!("{faults}"));
+    let study = Study::of(&scheme, &[4, 6, 7], false, &|| ()).unwrap();
+    for valence in &study.report.valences {
+        for claim in ["regular part", "C1"] {
+            let verdict = valence.verdicts.iter().find(|verdict| verdict.claim == claim).unwrap();
+            assert_ne!(verdict.evidence, eigenring::verdicts::Evidence::For, "{claim} at n = {}", valence.n);
+        }
+    }
+}

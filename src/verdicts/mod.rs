@@ -118,14 +118,18 @@ fn regular_part(analysis: &Analysis) -> Verdict {
     let value = regular
         .lambda
         .map_or("none".to_string(), |lambda| format!("lambda = {} at n = {}", digits(lambda), regular.valence));
-    let holds = regular.next_modulus < 1.0 && regular.lambda.is_some_and(|lambda| (lambda - 0.5).abs() <= TIE);
-    let seen = if holds {
-        "necessary: 1, then 1/2 twice, at the regular valence"
+    let half = regular.lambda.is_some_and(|lambda| (lambda - 0.5).abs() <= TIE);
+    let evidence = match below(regular.rival, 0.5, 0.0) {
+        Evidence::For => says(regular.next_modulus < 1.0 && half),
+        other => other,
+    };
+    let seen = if evidence == Evidence::For {
+        "what is necessary was seen: 1, then 1/2 twice, then less, at the regular valence"
     } else {
-        "a C1 scheme has 1, then 1/2 twice, at the regular valence"
+        "a C1 scheme has 1, then 1/2 twice, then less, at the regular valence"
     };
     let why = [seen.to_string(), "contractive difference schemes would decide".to_string()];
-    undecided("regular part", states, value, says(holds), &why, &["reif-1995", "zorin-2000"])
+    undecided("regular part", states, value, evidence, &why, &["reif-1995", "zorin-2000"])
 }
 
 fn simple_one(analysis: &Analysis) -> Verdict {
@@ -145,8 +149,9 @@ fn subdominant(analysis: &Analysis) -> Verdict {
             return undecided("subdominant", states, "none".to_string(), Evidence::None, &[no_map(analysis)], &sources);
         };
         let seen = format!("the largest eigenvalue after 1 is {} in frequency {}", complex(&e), e.frequency);
+        let first = analysis.spectrum.largest_of(1).map_or(0.0, |first| first.modulus());
         let (evidence, why) = if e.frequency != 1 {
-            (Evidence::Against, "not frequency 1")
+            (below(e.modulus(), first, e.approx_error), "not frequency 1")
         } else if e.is_isolated() {
             (Evidence::Against, "not a positive number")
         } else {
@@ -235,7 +240,7 @@ fn slope_ratio(analysis: &Analysis) -> Verdict {
     };
     let rival = analysis.spectrum.after_one().find(|e| e.frequency != 1);
     let ratio = rival.map_or(0.0, |e| e.modulus() / lambda.value.re);
-    let evidence = if (ratio - 1.0).abs() <= TIE { Evidence::None } else { says(ratio < 1.0) };
+    let evidence = below(ratio, 1.0, rival.map_or(0.0, |e| e.approx_error / lambda.value.re));
     let at =
         rival.map_or("no other frequency".to_string(), |e| format!("the largest is that of frequency {}", e.frequency));
     undecided("slope ratios", states, digits(ratio), evidence, &[at, APPROXIMATE.to_string()], &["doo-sabin-1978"])
