@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use eigenring::analysis::{Analysis, Analyzer};
-use eigenring::numbers::{Number, Trouble};
+use eigenring::numbers::{Field, Trouble};
 use eigenring::refine::{self, OrbitNames, Refinement};
 use eigenring::scheme::catalogue::{self, Listed};
 use eigenring::scheme::formula::{Formula, Names};

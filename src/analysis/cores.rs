@@ -20,35 +20,23 @@ pub struct Cores {
 impl Cores {
     /// The cores of a matrix's blocks.
     pub fn of(blocks: &Blocks) -> Cores {
-        let mut graph: DiGraph<Node, ()> = DiGraph::new();
-        let indices: Vec<NodeIndex> = blocks.nodes.iter().map(|node| graph.add_node(*node)).collect();
-        for to in &indices {
-            for from in &indices {
-                if blocks.feeds(graph[*to], graph[*from]) {
-                    graph.add_edge(*to, *from, ());
-                }
-            }
-        }
-        let components = tarjan_scc(&graph);
+        let nodes = &blocks.nodes;
+        let feeds = |to: usize, from: usize| blocks.feeds(nodes[to], nodes[from]);
+        let components = components(nodes.len(), feeds);
         let count = components.len();
         let mut depends = vec![vec![false; count]; count];
         for (a, component) in components.iter().enumerate() {
             depends[a][a] = true;
             for b in 0..a {
-                let direct =
-                    component.iter().any(|to| components[b].iter().any(|from| graph.contains_edge(*to, *from)));
+                let direct = component.iter().any(|to| components[b].iter().any(|from| feeds(*to, *from)));
                 if direct {
                     let below = depends[b].clone();
                     depends[a].iter_mut().zip(below).for_each(|(own, other)| *own |= other);
                 }
             }
         }
-        let in_order = |component: &Vec<NodeIndex>| {
-            let mut component = component.clone();
-            component.sort();
-            component.into_iter().map(|index| graph[index]).collect()
-        };
-        Cores { cores: components.iter().map(in_order).collect(), depends }
+        let cores = components.iter().map(|component| component.iter().map(|index| nodes[*index]).collect());
+        Cores { cores: cores.collect(), depends }
     }
 
     /// The nodes of the core that act on a frequency: the centre acts on frequency 0 only.
@@ -71,4 +59,24 @@ impl Cores {
             .flat_map(|c| self.nodes(c, frequency))
             .collect()
     }
+}
+
+/// The strongly connected components of the graph in which `to` depends on `from`, each in order; a component depends on
+/// itself and on earlier ones only.
+pub fn components(size: usize, feeds: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
+    let mut graph: DiGraph<(), ()> = DiGraph::new();
+    let indices: Vec<NodeIndex> = (0..size).map(|_| graph.add_node(())).collect();
+    for (to, row) in indices.iter().enumerate() {
+        for (from, column) in indices.iter().enumerate() {
+            if feeds(to, from) {
+                graph.add_edge(*row, *column, ());
+            }
+        }
+    }
+    let in_order = |component: Vec<NodeIndex>| {
+        let mut component: Vec<usize> = component.into_iter().map(NodeIndex::index).collect();
+        component.sort_unstable();
+        component
+    };
+    tarjan_scc(&graph).into_iter().map(in_order).collect()
 }

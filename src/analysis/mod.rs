@@ -6,6 +6,7 @@
 pub mod blocks;
 pub mod charmap;
 pub mod cores;
+pub mod exact;
 pub mod local;
 pub mod masks;
 pub mod neighbourhood;
@@ -17,6 +18,8 @@ use crate::scheme::Scheme;
 use blocks::Blocks;
 use charmap::{CharacteristicMap, RegularMasks, Sample, Shape};
 use cores::Cores;
+use exact::formulas::{AllValences, GENERIC};
+use exact::{ExactAnalysis, Task};
 use local::{LocalMatrix, MAX_VALENCE};
 use masks::Mask;
 use neighbourhood::{Influence, Orbit, closure};
@@ -32,6 +35,7 @@ pub struct Analyzer<'a> {
     influence: Influence,
     regular: Option<RegularMasks>,
     regular_part: RegularPart,
+    forms: Result<AllValences, String>,
 }
 
 /// The eigenvalues that Doo and Sabin's classical test compares, on the smallest invariant neighbourhood.
@@ -52,7 +56,7 @@ pub struct MapReport {
     pub shape: Option<Shape>,
 }
 
-/// Everything found at one valence; numbers are approximate.
+/// Everything found at one valence; numbers are approximate, but for those under `exact`.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     /// The valence n.
@@ -77,6 +81,8 @@ pub struct Analysis {
     pub classical: Classical,
     /// What was seen at the regular valence.
     pub regular: RegularPart,
+    /// What is exact or enclosed, or why nothing is.
+    pub exact: Result<ExactAnalysis, String>,
 }
 
 /// What the spectrum at the regular valence says of the scheme on regular meshes.
@@ -104,7 +110,9 @@ impl<'a> Analyzer<'a> {
         let influence = Influence::of(&stencils, lattice)?;
         let valence = lattice.regular_valence();
         let regular_part = RegularPart::default();
-        let mut analyzer = Analyzer { refinement, lattice, stencils, influence, regular: None, regular_part };
+        let forms = Err(String::new());
+        let mut analyzer = Analyzer { refinement, lattice, stencils, influence, regular: None, regular_part, forms };
+        analyzer.forms = analyzer.find_forms()?;
         let regular = analyzer.at(valence)?;
         let next_modulus = regular.spectrum.subdominant().map_or(0.0, |e| e.modulus());
         let rival = regular.spectrum.after_subdominant().next().map_or(0.0, |e| e.modulus());
@@ -124,6 +132,31 @@ impl<'a> Analyzer<'a> {
     /// The lattice that the scheme lives on.
     pub fn lattice(&self) -> Lattice {
         self.lattice
+    }
+
+    /// What holds for all valences at once, or why nothing does.
+    pub fn forms(&self) -> Result<&AllValences, &str> {
+        self.forms.as_ref().map_err(String::as_str)
+    }
+
+    fn find_forms(&self) -> Result<Result<AllValences, String>, Obstacle> {
+        let rows = self.rows(GENERIC);
+        let found = self.influence.orbits(&rows).and_then(|orbits| {
+            let smallest = smallest_invariant(&rows)?;
+            let inside = |t: &usize| smallest.contains(&orbits[*t]);
+            let smallest: Vec<usize> = (0..orbits.len()).filter(inside).collect();
+            AllValences::of(self.scheme(), self.lattice, &orbits, &smallest)
+        });
+        Ok(found.map_err(|obstacle| obstacle.to_string()))
+    }
+
+    fn exact(&self, valence: usize, orbits: &[Orbit]) -> Result<Result<ExactAnalysis, String>, Obstacle> {
+        let forms = self.forms.as_ref().ok();
+        match (Task { scheme: self.scheme(), lattice: self.lattice, valence, orbits, forms }).run() {
+            Ok(analysis) => Ok(Ok(analysis)),
+            Err(fault @ Obstacle::Fault(_)) => Err(fault),
+            Err(other) => Ok(Err(other.to_string())),
+        }
     }
 
     fn rows(&self, valence: usize) -> PatchRows<'_, 'a> {
@@ -168,7 +201,9 @@ impl<'a> Analyzer<'a> {
         let map = map.map(|map| MapReport { net: self.net(&map, &local), shape: self.shape(&map, valence) });
         let classical = classical(&rows, &local, &cores, &spectrum)?;
         let regular = self.regular_part;
+        let exact = self.exact(valence, &local.orbits)?;
         Ok(Analysis {
+            exact,
             valence,
             local,
             blocks,
@@ -227,9 +262,14 @@ pub struct MapPicture {
     pub samples: Option<(i32, Vec<Sample>)>,
 }
 
+/// The orbits of the smallest invariant neighbourhood: the centre's ring and whatever it is made of.
+fn smallest_invariant(rows: &PatchRows) -> Result<BTreeSet<Orbit>, Obstacle> {
+    let seed: BTreeSet<Orbit> = if rows.patch.centre().is_some() { [(0, 0), (1, 0)].into() } else { [(0, 0)].into() };
+    closure(rows, seed)
+}
+
 fn classical(rows: &PatchRows, local: &LocalMatrix, cores: &Cores, spectrum: &Spectrum) -> Result<Classical, Obstacle> {
-    let seed: BTreeSet<Orbit> = if local.centre.is_some() { [(0, 0), (1, 0)].into() } else { [(0, 0)].into() };
-    let smallest = closure(rows, seed)?;
+    let smallest = smallest_invariant(rows)?;
     let inside = |e: &&Eigenvalue| {
         let mut orbits = cores.cores[e.core].iter().flat_map(|node| node.orbits());
         orbits.all(|t| smallest.contains(&local.orbits[t]))

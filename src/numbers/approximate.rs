@@ -3,7 +3,8 @@
 //! `f64` without error bounds. Cosine and sine are those of the `libm` crate, so that results don't depend on the
 //! machine's C library. Every operation refuses a result that is not finite: NaN never travels.
 
-use super::{Function, Literal, Number, Trouble};
+use super::{Field, Function, Literal, Number, Trouble};
+use dashu_ratio::RBig;
 use std::cmp::Ordering;
 
 /// The largest upper argument of a binomial coefficient (a limit, not a theorem: larger ones overflow or say nothing).
@@ -24,17 +25,15 @@ fn binomial(n: f64, k: f64) -> Result<f64, Trouble> {
     finite((0..k).fold(1.0, |product, i| product * (n - f64::from(i)) / (f64::from(i) + 1.0)).round())
 }
 
-impl Number for f64 {
-    fn literal(literal: &Literal) -> Self {
-        literal.approx
+impl Field for f64 {
+    const EXACT: bool = false;
+
+    fn rational(value: &RBig) -> Self {
+        value.to_f64().value()
     }
 
     fn whole(value: i64) -> Self {
         value as f64
-    }
-
-    fn pi() -> Self {
-        std::f64::consts::PI
     }
 
     fn negated(&self) -> Self {
@@ -51,6 +50,20 @@ impl Number for f64 {
 
     fn over(&self, other: &Self) -> Result<Self, Trouble> {
         if *other == 0.0 { Err(Trouble::DivisionByZero) } else { finite(self / other) }
+    }
+
+    fn is_certainly_zero(&self) -> bool {
+        *self == 0.0
+    }
+}
+
+impl Number for f64 {
+    fn literal(literal: &Literal) -> Self {
+        literal.approx
+    }
+
+    fn pi() -> Self {
+        std::f64::consts::PI
     }
 
     fn power(&self, exponent: &Self) -> Result<Self, Trouble> {
@@ -80,10 +93,6 @@ impl Number for f64 {
         // sides that rounding alone may have parted are not ordered
         let near = (self - other).abs() <= 1e-12 * self.abs().max(other.abs()).max(1.0);
         if near && self != other { None } else { self.partial_cmp(other) }
-    }
-
-    fn is_certainly_zero(&self) -> bool {
-        *self == 0.0
     }
 }
 

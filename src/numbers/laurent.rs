@@ -6,7 +6,7 @@
 //! both sides are defined. An inequality of two normal forms shows nothing, since atoms may be related
 //! (cos^2 + sin^2 = 1): use it to prove, never to refute.
 
-use super::{Function, Literal, Number, Trouble};
+use super::{Field, Function, Number, Trouble};
 use dashu_base::{BitTest, Sign};
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
@@ -20,7 +20,7 @@ const MAX_BITS: usize = 4096;
 const TOO_LARGE: Trouble = Trouble::BeyondThisWorld("the exact form is too large to hold");
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Atom {
+pub(super) enum Atom {
     Name(String),
     Call(Function, Vec<Laurent>),
     /// A sum of several terms in a denominator, with leading coefficient 1.
@@ -28,7 +28,7 @@ enum Atom {
 }
 
 /// A product of atoms with exponents other than 0, in order of the atoms.
-type Monomial = BTreeMap<Atom, i64>;
+pub(super) type Monomial = BTreeMap<Atom, i64>;
 
 /// A rational combination of products of atoms, in normal form: no term has coefficient 0.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -87,6 +87,11 @@ impl Laurent {
             }
         }
         Some(sum)
+    }
+
+    /// Its terms: products of atoms with their coefficients.
+    pub(super) fn terms(&self) -> impl Iterator<Item = (&Monomial, &RBig)> {
+        self.terms.iter()
     }
 
     fn of_atom(atom: Atom) -> Self {
@@ -168,17 +173,9 @@ impl Atom {
     }
 }
 
-impl Number for Laurent {
-    fn literal(literal: &Literal) -> Self {
-        Laurent::constant(literal.exact.clone())
-    }
-
-    fn whole(value: i64) -> Self {
-        Laurent::constant(RBig::from(value))
-    }
-
-    fn pi() -> Self {
-        Laurent::atom("pi")
+impl Field for Laurent {
+    fn rational(value: &RBig) -> Self {
+        Laurent::constant(value.clone())
     }
 
     fn negated(&self) -> Self {
@@ -215,6 +212,20 @@ impl Number for Laurent {
         self.times(&other.inverse()?)
     }
 
+    fn is_certainly_zero(&self) -> bool {
+        self.terms.is_empty()
+    }
+}
+
+impl Number for Laurent {
+    fn indeterminate(name: &str) -> Option<Self> {
+        Some(Laurent::atom(name))
+    }
+
+    fn pi() -> Self {
+        Laurent::atom("pi")
+    }
+
     fn power(&self, exponent: &Self) -> Result<Self, Trouble> {
         let whole = exponent.as_whole().filter(|e| e.abs() <= MAX_EXPONENT);
         let exponent = whole.ok_or(Trouble::BeyondThisWorld("the exponent is not a small whole number"))?;
@@ -239,10 +250,6 @@ impl Number for Laurent {
 
     fn order(&self, other: &Self) -> Option<Ordering> {
         Some(self.as_constant()?.cmp(&other.as_constant()?))
-    }
-
-    fn is_certainly_zero(&self) -> bool {
-        self.terms.is_empty()
     }
 }
 

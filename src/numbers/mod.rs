@@ -6,13 +6,41 @@
 //! identities for every valence at once.
 
 mod approximate;
+pub mod closed_form;
+mod cosine;
+mod enclosed_world;
+pub mod enclosure;
+mod extension;
+pub mod factor;
+pub mod free;
+mod free_world;
+mod gcd;
+mod hensel;
+mod kronecker;
 mod laurent;
+pub mod linear;
+pub mod notation;
+pub mod polynomial;
+pub mod real_root;
+mod ring;
+pub mod roots;
 mod roots_of_unity;
 mod sum;
+pub mod univariate;
+mod world;
 
+pub use cosine::{AtValence, Cosine, CosineField, MAX_DEGREE, degree};
+pub use enclosed_world::EnclosedWorld;
+pub use enclosure::Enclosure;
+pub use extension::Extension;
+pub use free::Free;
+pub use free_world::{C, C_K, FIRST_PARAMETER, FreeWorld, MOST_PARAMETERS, N, chebyshev};
 pub use laurent::{Laurent, RingSize};
+pub use ring::{PerFrequency, RingWorld, Series};
 pub use roots_of_unity::RootsOfUnity;
 pub use sum::sum;
+pub use univariate::Univariate;
+pub use world::{Angle, World, square_part};
 
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
@@ -95,14 +123,16 @@ impl fmt::Display for Trouble {
     }
 }
 
-/// A world of numbers in which formulas are evaluated.
-pub trait Number: Clone + fmt::Debug + PartialEq {
-    /// The value of a literal.
-    fn literal(literal: &Literal) -> Self;
+/// What linear algebra needs of numbers. Any operation may pass a stated limit of size.
+pub trait Field: Clone + fmt::Debug + PartialEq {
+    /// Whether equality of values is decided here.
+    const EXACT: bool = true;
+    /// The value of a rational number.
+    fn rational(value: &RBig) -> Self;
     /// The value of a whole number.
-    fn whole(value: i64) -> Self;
-    /// The circle's constant.
-    fn pi() -> Self;
+    fn whole(value: i64) -> Self {
+        Self::rational(&RBig::from(value))
+    }
     /// `-self`
     fn negated(&self) -> Self;
     /// `self + other`
@@ -110,6 +140,13 @@ pub trait Number: Clone + fmt::Debug + PartialEq {
     /// # Errors
     /// When the result is beyond this world.
     fn plus(&self, other: &Self) -> Result<Self, Trouble>;
+    /// `self - other`
+    ///
+    /// # Errors
+    /// When the result is beyond this world.
+    fn minus(&self, other: &Self) -> Result<Self, Trouble> {
+        self.plus(&other.negated())
+    }
     /// `self * other`
     ///
     /// # Errors
@@ -118,8 +155,24 @@ pub trait Number: Clone + fmt::Debug + PartialEq {
     /// `self / other`
     ///
     /// # Errors
-    /// When `other` is zero, or the result is beyond this world.
+    /// When `other` is zero (an enclosure: when it holds zero), or the result is beyond this world.
     fn over(&self, other: &Self) -> Result<Self, Trouble>;
+    /// Whether this is certainly zero. Exact worlds decide it.
+    fn is_certainly_zero(&self) -> bool;
+}
+
+/// A world of numbers in which formulas are evaluated.
+pub trait Number: Field {
+    /// The value of a literal.
+    fn literal(literal: &Literal) -> Self {
+        Self::rational(&literal.exact)
+    }
+    /// A name that stands for itself, where this world has such.
+    fn indeterminate(_name: &str) -> Option<Self> {
+        None
+    }
+    /// The circle's constant.
+    fn pi() -> Self;
     /// `self ^ exponent`
     ///
     /// # Errors
@@ -132,6 +185,4 @@ pub trait Number: Clone + fmt::Debug + PartialEq {
     fn call(function: Function, arguments: &[Self]) -> Result<Self, Trouble>;
     /// Order, where this world can decide it.
     fn order(&self, other: &Self) -> Option<Ordering>;
-    /// Whether this is certainly zero.
-    fn is_certainly_zero(&self) -> bool;
 }

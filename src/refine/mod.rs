@@ -3,11 +3,13 @@
 //! The one place where weights meet topology: scheme x mesh -> rows of weights. A row on the canonical patch is a row of
 //! the local subdivision matrix; rows times positions are the refined mesh.
 
+mod exact_weights;
 mod names;
 mod regular;
 mod stencil;
 mod symmetry;
 
+pub use exact_weights::{Count, ExactWeights};
 pub use names::OrbitNames;
 pub use regular::{PatchRows, RegularStencils};
 pub use stencil::Use;
@@ -15,9 +17,9 @@ pub use symmetry::check_symmetry;
 
 use crate::fault::{Fault, Faults};
 use crate::mesh::{Connectivity, Lattice, Site};
-use crate::numbers::{Number, Trouble};
+use crate::numbers::{Field, Number, Trouble};
 use crate::scheme::vocabulary::{Arrival, Move, RuleKind, Walk};
-use crate::scheme::{Place, Rule, RuleBook, RuleSum, Scheme};
+use crate::scheme::{Entry, Place, Rule, RuleBook, RuleSum, Scheme};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::fmt;
@@ -39,12 +41,14 @@ pub enum Obstacle {
     NoRule(&'static str),
     /// The request is beyond a stated limit, as said.
     Limit(String),
+    /// A formula has a value, but not in this exact world, as said.
+    Inexact(Fault),
 }
 
 impl fmt::Display for Obstacle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Obstacle::Fault(fault) => f.write_str(&fault.message),
+            Obstacle::Fault(fault) | Obstacle::Inexact(fault) => f.write_str(&fault.message),
             Obstacle::Trouble(trouble) => write!(f, "{trouble}"),
             Obstacle::Boundary(rule) => write!(f, "the rule [{rule}] reaches over the boundary of the mesh"),
             Obstacle::NoRule(rule) => write!(f, "a rule [{rule}] is needed here, and there is none"),
@@ -104,17 +108,57 @@ struct Term<'a, W> {
 /// The terms of a rule at one count.
 type Terms<'a, W> = Rc<Vec<Term<'a, W>>>;
 
+/// What the weights of a rule are, in a world of numbers.
+pub trait Weigher<W> {
+    /// The points of a rule's entry, as indices into its class, with their weights, where the rule's count is `count`.
+    ///
+    /// # Errors
+    /// When a weight has no value in this world.
+    fn weights(
+        &self,
+        book: &RuleBook,
+        entry: &Entry,
+        kind: RuleKind,
+        count: usize,
+    ) -> Result<Vec<(usize, W)>, Obstacle>;
+}
+
+/// The weights are the values of the formulas, point by point.
+struct ByFormula;
+
+impl<W: Number> Weigher<W> for ByFormula {
+    fn weights(
+        &self,
+        book: &RuleBook,
+        entry: &Entry,
+        kind: RuleKind,
+        count: usize,
+    ) -> Result<Vec<(usize, W)>, Obstacle> {
+        let place = Place::<W>::at(kind.variable(), count as i64);
+        let size = crate::scheme::class_size(entry, kind, count as i64);
+        Ok(book.weights(entry, size, &place)?)
+    }
+}
+
 /// A scheme's rules in one world of numbers, ready to be applied to a mesh.
 pub struct Refinement<'a, W> {
     scheme: &'a Scheme,
     boundary: Option<&'a RuleBook>,
+    weigher: Box<dyn Weigher<W> + 'a>,
     terms: RefCell<HashMap<(RuleKind, usize), Terms<'a, W>>>,
 }
 
 impl<'a, W: Number> Refinement<'a, W> {
     /// The scheme's rules, with those of a boundary file where there is one.
     pub fn new(scheme: &'a Scheme, boundary: Option<&'a RuleBook>) -> Self {
-        Refinement { scheme, boundary, terms: RefCell::new(HashMap::new()) }
+        Refinement { boundary, ..Refinement::weighed(scheme, ByFormula) }
+    }
+}
+
+impl<'a, W: Field> Refinement<'a, W> {
+    /// The scheme's rules, with weights from elsewhere than its formulas alone.
+    pub fn weighed(scheme: &'a Scheme, weigher: impl Weigher<W> + 'a) -> Self {
+        Refinement { scheme, boundary: None, weigher: Box::new(weigher), terms: RefCell::new(HashMap::new()) }
     }
 
     /// The scheme that is refined with.
@@ -251,12 +295,10 @@ impl<'a, W: Number> Refinement<'a, W> {
             return Ok(Rc::clone(terms));
         }
         let (book, rule) = self.rule(kind)?;
-        let place = Place::<W>::at(kind.variable(), count as i64);
         let mut terms = Vec::new();
         for entry in &rule.entries {
             let walks = &entry.position.walks;
-            let size = crate::scheme::class_size(entry, kind, count as i64);
-            for (index, weight) in book.weights(entry, size, &place)? {
+            for (index, weight) in self.weigher.weights(book, entry, kind, count)? {
                 terms.push(Term { start: index / walks.len(), walk: &walks[index % walks.len()], weight });
             }
         }
@@ -332,7 +374,7 @@ impl<'a, W: Number> Refinement<'a, W> {
 /// The most branches of one walk.
 const MOST_BRANCHES: usize = 256;
 
-fn add_scaled<P: Copy, W: Number>(sum: &mut Vec<(P, W)>, row: &Row<P, W>, factor: &W) -> Result<(), Trouble> {
+fn add_scaled<P: Copy, W: Field>(sum: &mut Vec<(P, W)>, row: &Row<P, W>, factor: &W) -> Result<(), Trouble> {
     for (point, weight) in row {
         sum.push((*point, weight.times(factor)?));
     }
@@ -340,7 +382,7 @@ fn add_scaled<P: Copy, W: Number>(sum: &mut Vec<(P, W)>, row: &Row<P, W>, factor
 }
 
 /// Weights that fall on one point add up.
-fn collected<P: Copy + Ord, W: Number>(mut sum: Vec<(P, W)>) -> Result<Row<P, W>, Obstacle> {
+fn collected<P: Copy + Ord, W: Field>(mut sum: Vec<(P, W)>) -> Result<Row<P, W>, Obstacle> {
     sum.sort_by_key(|(point, _)| *point);
     let groups = sum.chunk_by(|(a, _), (b, _)| a == b);
     let mut row: Row<P, W> = groups.map(|group| Ok((group[0].0, by_halves(group)?))).collect::<Result<_, Trouble>>()?;
@@ -349,7 +391,7 @@ fn collected<P: Copy + Ord, W: Number>(mut sum: Vec<(P, W)>) -> Result<Row<P, W>
 }
 
 /// A sum by halves: its rounding grows with the logarithm of the number of terms only.
-fn by_halves<P, W: Number>(terms: &[(P, W)]) -> Result<W, Trouble> {
+fn by_halves<P, W: Field>(terms: &[(P, W)]) -> Result<W, Trouble> {
     match terms {
         [] => Ok(W::whole(0)),
         [(_, weight)] => Ok(weight.clone()),

@@ -4,7 +4,7 @@
 
 use super::Refinement;
 use crate::mesh::{Label, Lattice, Patch};
-use crate::numbers::Number;
+use crate::numbers::Field;
 use crate::scheme::vocabulary::{Arrival, RuleKind, Vocabulary};
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ pub struct OrbitNames {
 
 impl OrbitNames {
     /// The names that the vocabulary has for points around an extraordinary point of this scheme.
-    pub fn of<W: Number>(refinement: &Refinement<W>, lattice: Lattice) -> OrbitNames {
+    pub fn of<W: Field>(refinement: &Refinement<W>, lattice: Lattice) -> OrbitNames {
         let kind = if lattice == Lattice::Dual { RuleKind::Corner } else { RuleKind::Vertex };
         let patch = Patch::new(lattice, 5);
         let start = match patch.centre() {

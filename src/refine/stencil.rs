@@ -5,7 +5,7 @@
 
 use super::{Obstacle, Refinement};
 use crate::mesh::Connectivity;
-use crate::numbers::Number;
+use crate::numbers::Field;
 use crate::scheme::class_size;
 use crate::scheme::vocabulary::{Arrival, RuleKind};
 
@@ -22,7 +22,7 @@ pub struct Use<E> {
     pub path: Vec<E>,
 }
 
-impl<W: Number> Refinement<'_, W> {
+impl<W: Field> Refinement<'_, W> {
     /// Every point of the classes that a rule names, told around the half-edges `starts` of its place. Points that a row
     /// does not pick are among them.
     ///

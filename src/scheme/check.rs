@@ -8,7 +8,7 @@ use super::formula::{Condition, Formula};
 use super::vocabulary::RuleKind;
 use super::{Entry, Parameter, Rule, RuleBook, Scheme, Weights};
 use crate::fault::{Fault, Faults};
-use crate::numbers::{Laurent, Number, RingSize, sum};
+use crate::numbers::{Field, Laurent, RingSize, sum};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -174,6 +174,37 @@ impl RuleBook {
     fn settled_from(&self, rule: &Rule) -> Option<i64> {
         let lists = self.case_lists(rule);
         lists.iter().flatten().map(|(condition, _)| condition.settled_from()).try_fold(0, |a, b| Some(a.max(b?)))
+    }
+
+    /// The names that conditions mention.
+    pub fn condition_names(&self) -> BTreeSet<String> {
+        let lists = self.rules.values().flat_map(|rule| self.case_lists(rule)).flatten();
+        lists.flat_map(|(condition, _)| condition.names()).map(|(name, _)| name.to_string()).collect()
+    }
+
+    /// The count from which on no condition of a rule in n changes, if each compares n with a number.
+    pub fn settled_from_n(&self) -> Option<i64> {
+        let told = self.rules.values().filter(|rule| rule.kind.variable() == Some("n"));
+        told.map(|rule| self.settled_from(rule)).try_fold(0, |a, b| Some(a.max(b?)))
+    }
+
+    /// Which case holds at a count, for each table of cases of the rules in n.
+    ///
+    /// # Errors
+    /// When a condition has no value.
+    pub fn cases_at(&self, count: i64) -> Result<Vec<Option<usize>>, Fault> {
+        let told = self.rules.values().filter(|rule| rule.kind.variable() == Some("n"));
+        let mut cases = Vec::new();
+        for list in told.flat_map(|rule| self.case_lists(rule)) {
+            let mut holding = None;
+            for (index, (condition, span)) in list.iter().enumerate() {
+                if self.holds(condition, span, Some("n"), count)? {
+                    holding = Some(index);
+                }
+            }
+            cases.push(holding);
+        }
+        Ok(cases)
     }
 
     /// Exactly one case holds at every count that the rule is applied at.

@@ -65,6 +65,9 @@ impl<W: Number> Names<W> for Scope<'_, W> {
         }
         let deeper = Scope { depth: self.depth + 1, ..*self };
         let placed = if let Some(parameter) = self.book.parameters.iter().find(|p| p.name == name) {
+            if let Some(value) = parameter.free.then(|| W::indeterminate(name)).flatten() {
+                return Ok(value);
+            }
             &parameter.value
         } else if let Some(named) = self.book.lets.iter().find(|named| named.name == name) {
             self.book.select(&named.value, self.place).map_err(|fault| self.keep(fault))?
@@ -154,7 +157,7 @@ impl RuleBook {
     }
 
     /// Whether a formula depends on the index `j`, perhaps through names.
-    pub(super) fn uses_index(&self, formula: &Formula) -> bool {
+    pub(crate) fn uses_index(&self, formula: &Formula) -> bool {
         let indexed = |name: &str| name == "j" || self.lets.iter().any(|l| l.name == name && l.uses_index);
         formula.names().any(|(name, _)| indexed(name))
     }

@@ -124,6 +124,8 @@ pub struct Parameter {
     pub range: Option<(Placed, Placed)>,
     /// Whether it must be a whole number.
     pub integer: bool,
+    /// Whether it stands for itself where numbers are exact; approximate numbers take its value all the same.
+    pub free: bool,
     /// Where it stands.
     pub span: Range<usize>,
 }

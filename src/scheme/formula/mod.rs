@@ -144,7 +144,7 @@ fn apply<W: Number>(step: &Step, stack: &mut Vec<W>, names: &dyn Names<W>) -> Re
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numbers::Laurent;
+    use crate::numbers::{Field, Laurent};
     use proptest::prelude::*;
 
     struct NoNames;

@@ -44,6 +44,7 @@ impl Reader<'_> {
                 means: String::new(),
                 range: None,
                 integer: false,
+                free: false,
                 span,
             });
         };
@@ -59,7 +60,7 @@ impl Reader<'_> {
         let integer = integer.is_some_and(|(v, _)| v.as_bool().unwrap_or(true));
         let value = self.formula(default, &default_span)?;
         self.check_names(&value, &BTreeSet::new());
-        Some(Parameter { name: name.to_string(), value, means, range, integer, span })
+        Some(Parameter { name: name.to_string(), value, means, range, integer, free: false, span })
     }
 
     /// `"lo..hi"`, both included.
