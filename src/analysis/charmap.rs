@@ -44,7 +44,7 @@ impl RegularMasks {
 
 /// Where a point of the regular patch lies, in the coordinates of sector 0. On the dual lattice, as seen from the face at the
 /// origin: point (i, j) of the lattice lies at (i + 1/2, j + 1/2), so the offset of corner 0 is (0, 0).
-fn offset(lattice: Lattice, label: Label) -> (i32, i32) {
+pub(super) fn offset(lattice: Lattice, label: Label) -> (i32, i32) {
     let steps = lattice.steps();
     let step = |turns: u32| steps[turns as usize % steps.len()];
     let (along, over) = (step(label.sector), step(label.sector + 1));

@@ -25,6 +25,7 @@ use masks::Mask;
 use neighbourhood::{Influence, Orbit, closure};
 use num_complex::Complex64;
 use spectrum::{Eigenvalue, Spectrum};
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 /// What the analyses of a scheme at all valences share.
@@ -36,15 +37,18 @@ pub struct Analyzer<'a> {
     regular: Option<RegularMasks>,
     regular_part: RegularPart,
     forms: Result<AllValences, String>,
+    exact_regular: Option<ExactAnalysis>,
 }
 
 /// The eigenvalues that Doo and Sabin's classical test compares, on the smallest invariant neighbourhood.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Classical {
     /// The largest eigenvalue of frequency 0 after 1.
     pub cup: Option<Eigenvalue>,
     /// The largest eigenvalue of frequency 2.
     pub saddle: Option<Eigenvalue>,
+    /// The orbits of the smallest invariant neighbourhood, the centre's (0, 0) among them.
+    pub orbits: BTreeSet<Orbit>,
 }
 
 /// The characteristic map's net and what its samples say.
@@ -96,6 +100,8 @@ pub struct RegularPart {
     pub lambda: Option<f64>,
     /// The largest modulus after 1 and the subdominant eigenvalue.
     pub rival: f64,
+    /// Whether 1, then 1/2 twice, then less is exactly so.
+    pub exactly: Option<bool>,
 }
 
 impl<'a> Analyzer<'a> {
@@ -111,13 +117,24 @@ impl<'a> Analyzer<'a> {
         let valence = lattice.regular_valence();
         let regular_part = RegularPart::default();
         let forms = Err(String::new());
-        let mut analyzer = Analyzer { refinement, lattice, stencils, influence, regular: None, regular_part, forms };
+        let mut analyzer = Analyzer {
+            refinement,
+            lattice,
+            stencils,
+            influence,
+            regular: None,
+            regular_part,
+            forms,
+            exact_regular: None,
+        };
         analyzer.forms = analyzer.find_forms()?;
         let regular = analyzer.at(valence)?;
         let next_modulus = regular.spectrum.subdominant().map_or(0.0, |e| e.modulus());
         let rival = regular.spectrum.after_subdominant().next().map_or(0.0, |e| e.modulus());
         let lambda = regular.lambda.map(|e| e.value.re);
-        analyzer.regular_part = RegularPart { valence, next_modulus, lambda, rival };
+        analyzer.exact_regular = regular.exact.clone().ok();
+        let exactly = analyzer.exact_regular.as_ref().and_then(one_then_halves);
+        analyzer.regular_part = RegularPart { valence, next_modulus, lambda, rival, exactly };
         if let (Some(limit), Some(tangents)) = (&regular.limit_mask, &regular.tangent_masks) {
             analyzer.regular = Some(RegularMasks::of(&regular.local, limit, tangents));
         }
@@ -152,7 +169,8 @@ impl<'a> Analyzer<'a> {
 
     fn exact(&self, valence: usize, orbits: &[Orbit]) -> Result<Result<ExactAnalysis, String>, Obstacle> {
         let forms = self.forms.as_ref().ok();
-        match (Task { scheme: self.scheme(), lattice: self.lattice, valence, orbits, forms }).run() {
+        let regular = self.exact_regular.as_ref();
+        match (Task { scheme: self.scheme(), lattice: self.lattice, valence, orbits, forms, regular }).run() {
             Ok(analysis) => Ok(Ok(analysis)),
             Err(fault @ Obstacle::Fault(_)) => Err(fault),
             Err(other) => Ok(Err(other.to_string())),
@@ -262,6 +280,17 @@ pub struct MapPicture {
     pub samples: Option<(i32, Vec<Sample>)>,
 }
 
+/// Whether 1 is alone, 1/2 follows twice, and the rest is less; `None` where that is not decided.
+fn one_then_halves(regular: &ExactAnalysis) -> Option<bool> {
+    let (one, next) = (regular.one?, regular.after_one().next()?.0);
+    let dominates = regular.compare_moduli(one, next)? == Ordering::Greater;
+    let Some(lambda) = regular.lambda else { return Some(false) };
+    let rival = regular.after_subdominant().next().map(|(index, _)| regular.compare_moduli(lambda, index));
+    let leads = rival.is_none_or(|order| order == Some(Ordering::Greater));
+    let half = regular.eigenvalues[lambda].exact.as_ref().map(|words| words.text == "1/2")?;
+    Some(dominates && leads && half)
+}
+
 /// The orbits of the smallest invariant neighbourhood: the centre's ring and whatever it is made of.
 fn smallest_invariant(rows: &PatchRows) -> Result<BTreeSet<Orbit>, Obstacle> {
     let seed: BTreeSet<Orbit> = if rows.patch.centre().is_some() { [(0, 0), (1, 0)].into() } else { [(0, 0)].into() };
@@ -276,5 +305,5 @@ fn classical(rows: &PatchRows, local: &LocalMatrix, cores: &Cores, spectrum: &Sp
     };
     let largest = |frequency: usize| spectrum.after_one().filter(inside).find(|e| e.frequency == frequency).copied();
     let saddle = if spectrum.valence >= 4 { largest(2) } else { None };
-    Ok(Classical { cup: largest(0), saddle })
+    Ok(Classical { cup: largest(0), saddle, orbits: smallest })
 }

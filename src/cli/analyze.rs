@@ -38,6 +38,9 @@ pub(crate) struct Analyze {
     /// Write no pictures
     #[arg(long)]
     no_pictures: bool,
+    /// The number of decimals; those of exact and enclosed numbers are all right
+    #[arg(long, default_value_t = report::DIGITS as u16, value_parser = clap::value_parser!(u16).range(1..=report::MAX_DIGITS as i64))]
+    digits: u16,
 }
 
 /// The forms of a report.
@@ -54,7 +57,7 @@ impl Analyze {
         let scheme = open(&self.scheme, &self.set)?;
         let draw = !self.no_pictures && self.format.is_none();
         let bar = progress_bar(&self.valence.0);
-        let study = Study::of(&scheme, &self.valence.0, draw, &|| bar.inc(1));
+        let study = Study::with_digits(&scheme, &self.valence.0, self.digits.into(), draw, &|| bar.inc(1));
         bar.finish_and_clear();
         let study = study.map_err(|error| explain(&scheme, error))?;
         match self.format {

@@ -82,8 +82,11 @@ impl<F: Field, const BITS: usize> RealRoot<F, BITS> {
     }
 }
 
-/// The polynomial, monic and of the same degree, whose roots are the squares of this one's, made square-free.
-fn of_squares<F: Field>(polynomial: &Univariate<F>) -> Result<Univariate<F>, Trouble> {
+/// The monic polynomial whose roots are the squares of this one's, made square-free.
+///
+/// # Errors
+/// When a limit of size is passed.
+pub fn of_squares<F: Field>(polynomial: &Univariate<F>) -> Result<Univariate<F>, Trouble> {
     let product = polynomial.times(&polynomial.at_negative())?;
     let even = product.coefficients().iter().step_by(2).cloned().collect();
     let squares = Univariate::new(even).monic()?;

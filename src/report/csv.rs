@@ -21,8 +21,9 @@ fn push_valence(text: &mut String, v: &ValenceReport) {
         let _ = writeln!(text, "{n},rule weight,{},,,,,{weight},", quoted(name));
     }
     for e in &v.eigenvalues {
+        let value = e.quantity.value;
         for _ in 0..e.algebraic {
-            let _ = writeln!(text, "{n},eigenvalue,,{},,,,{},{}", e.frequency, e.value[0], e.value[1]);
+            let _ = writeln!(text, "{n},eigenvalue,,{},,,,{},{}", e.frequency, value[0], value[1]);
         }
     }
     if let Some(mu) = &v.subsubdominant {

@@ -3,7 +3,7 @@
 use super::Figure;
 use super::markdown::introduction;
 use super::model::Report;
-use super::tables::{Table, tables};
+use super::tables::{Cell, Table, tables};
 use std::fmt::Write;
 
 const HEAD: &str = r"\documentclass[10pt]{article}
@@ -45,7 +45,7 @@ const MOST_ROWS_ON_A_PAGE: usize = 45;
 
 /// A table with the rules of booktabs. Columns with sentences wrap.
 fn rows(table: &Table) -> String {
-    let longest = |column: usize| table.rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let longest = |column: usize| table.rows.iter().map(|row| row[column].text.chars().count()).max().unwrap_or(0);
     let count = table.head.len();
     let wide: Vec<bool> = (0..count).map(|column| longest(column) > 40).collect();
     let narrow_characters: usize = (0..count).filter(|c| !wide[*c]).map(|c| longest(c).max(6)).sum();
@@ -55,9 +55,9 @@ fn rows(table: &Table) -> String {
         false => "l".to_string(),
     };
     let spec: String = wide.iter().map(column).collect();
-    let line =
-        |row: &Vec<String>| format!("{} \\\\\n", row.iter().map(|cell| escaped(cell)).collect::<Vec<_>>().join(" & "));
-    let body: String = table.rows.iter().map(line).collect();
+    let line = |cells: Vec<String>| format!("{} \\\\\n", cells.join(" & "));
+    let cell = |cell: &Cell| cell.latex.as_deref().map_or(escaped(&cell.text), unicode);
+    let body: String = table.rows.iter().map(|row| line(row.iter().map(cell).collect())).collect();
     let size = match count {
         0..=7 => "\\footnotesize",
         8..=10 => "\\scriptsize",
@@ -65,11 +65,16 @@ fn rows(table: &Table) -> String {
     };
     let (environment, endhead) =
         if table.rows.len() > MOST_ROWS_ON_A_PAGE { ("longtable", "\\endhead\n") } else { ("tabular", "") };
-    let head = line(&table.head);
+    let head = line(table.head.iter().map(|cell| escaped(cell)).collect());
     format!(
         "{{{size}\\setlength{{\\tabcolsep}}{{3pt}}\n\\begin{{{environment}}}{{@{{}}{spec}@{{}}}}\n\\toprule\n{head}\\midrule\n{endhead}\
          {body}\\bottomrule\n\\end{{{environment}}}\\par}}\n"
     )
+}
+
+/// LaTeX with mathematical letters.
+fn unicode(latex: &str) -> String {
+    latex.replace('≈', "$\\approx$")
 }
 
 /// Text whose signs LaTeX would take for its own, and mathematical letters.
@@ -96,6 +101,7 @@ fn letter(c: char) -> Option<&'static str> {
         'β' => "$\\beta$",
         'λ' => "$\\lambda$",
         'μ' => "$\\mu$",
+        '±' => "$\\pm$",
         'π' => "$\\pi$",
         'ω' => "$\\omega$",
         '²' => "$^2$",

@@ -1,7 +1,7 @@
 //! The report as Markdown.
 
 use super::Figure;
-use super::model::Report;
+use super::model::{Report, ValenceReport};
 use super::tables::{Table, tables};
 use std::fmt::Write;
 
@@ -38,13 +38,34 @@ pub(super) fn introduction(report: &Report) -> String {
     format!(
         "Mesh: {}. Split: {}. {} scheme, linear; regular at n = {}. Analysed at an extraordinary {place}, over the full \
          neighbourhood: every point that influences the limit surface over the faces around the centre.{parameters}\n\n\
-         All numbers are approximate (f64, no error bound) unless they are said to be proved. As a check, {vectors} right and left \
-         eigenvectors were put into their equations; the approximate residuals, relative to the vectors, are {worst}.",
+         {} As a check of the approximate numbers, {vectors} right and left eigenvectors were put into their equations; the \
+         residuals, relative to the vectors, are {worst}.",
         class.mesh,
         class.split,
         capitalised(kind),
         class.regular_valence,
+        arithmetic(report),
     )
+}
+
+/// How the numbers are known.
+fn arithmetic(report: &Report) -> String {
+    let mut text = "Eigenvalues, masks and ratios are exact, and their decimals correctly rounded, unless a sign ≈ says that they are \
+                    approximate (f64, no error bound); characteristic maps and what is drawn are approximate."
+        .to_string();
+    for kind in ["enclosed", "approximate"] {
+        let those: Vec<&ValenceReport> = report.valences.iter().filter(|v| v.arithmetic == kind).collect();
+        if let Some(first) = those.first() {
+            let shown: Vec<String> = those.iter().take(8).map(|v| v.n.to_string()).collect();
+            let more = if those.len() > shown.len() { ", ..." } else { "" };
+            let why = first.why_not_exact.clone().unwrap_or_default();
+            let _ = write!(text, " At n = {}{more} numbers are {kind}: {why}.", shown.join(", "));
+        }
+    }
+    if let Some(why) = &report.why_no_formulas {
+        let _ = write!(text, " There are no closed forms for all n: {why}.");
+    }
+    text
 }
 
 fn exponent(bound: &str) -> i32 {
@@ -62,10 +83,9 @@ fn push_figure(text: &mut String, figure: &Figure) {
 
 /// The table's rows in Markdown's form, columns padded so that the text reads well as it stands.
 fn rows(table: &Table) -> String {
-    let cells: Vec<Vec<String>> = std::iter::once(&table.head)
-        .chain(&table.rows)
-        .map(|row| row.iter().map(|cell| escaped(cell)).collect())
-        .collect();
+    let head: Vec<String> = table.head.iter().map(|cell| escaped(cell)).collect();
+    let body = table.rows.iter().map(|row| row.iter().map(|cell| escaped(&cell.text)).collect());
+    let cells: Vec<Vec<String>> = std::iter::once(head).chain(body).collect();
     let width = |column: usize| cells.iter().map(|row| row[column].chars().count()).max().unwrap_or(0).max(3);
     let widths: Vec<usize> = (0..table.head.len()).map(width).collect();
     let line = |row: &Vec<String>| {

@@ -5,6 +5,7 @@
 
 mod csv;
 mod files;
+pub mod formulas;
 mod latex;
 mod markdown;
 pub mod model;
@@ -19,8 +20,8 @@ pub use latex::latex;
 pub use markdown::markdown;
 pub use model::Report;
 pub use plots::{Picture, pictures, png};
-pub use study::{ATLAS, NoReport, Study, atlas};
-pub use tables::{Table, tables, verdict_word};
+pub use study::{ATLAS, DIGITS, MAX_DIGITS, NoReport, Study, atlas};
+pub use tables::{Cell, Table, tables, verdict_word};
 pub use terminal::terminal;
 
 /// A picture's place in a document.

@@ -3,13 +3,16 @@
 //! Everything that tables, pictures and other programs read, as plain data; as JSON it is the contract of the README
 //! (`"format": 1`). Lists are in a fixed order and floats print shortest: the same input gives the same bytes.
 
+use super::formulas::{AllValencesReport, all_valences};
+use crate::analysis::exact::words::Words;
+use crate::analysis::exact::{Arithmetic, ExactAnalysis, ExactEigenvalue, ExactWeight, Value};
 use crate::analysis::masks::Mask;
 use crate::analysis::spectrum::Eigenvalue;
 use crate::analysis::{Analysis, Analyzer};
 use crate::mesh::Label;
 use crate::refine::{Obstacle, OrbitNames, Refinement};
 use crate::scheme::{RuleSum, Scheme, catalogue};
-use crate::verdicts::{ClaimCheck, CurvatureClass, Verdict, bound, check_claims, curvature_class, verdicts};
+use crate::verdicts::{ClaimCheck, Curvature, CurvatureClass, Verdict, bound, check_claims, curvature_of, verdicts};
 use num_complex::Complex64;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -34,6 +37,11 @@ pub struct Report {
     pub parameters: BTreeMap<String, String>,
     /// Whose it is.
     pub sources: Vec<Reference>,
+    /// What holds for every n; null where there are no closed forms in n.
+    pub all_valences: Option<AllValencesReport>,
+    /// Why there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why_no_formulas: Option<String>,
     /// One entry for each valence asked for.
     pub valences: Vec<ValenceReport>,
     /// What the literature says, beside the analysis.
@@ -77,8 +85,11 @@ pub struct ValenceReport {
     pub dilation: u32,
     /// Every eigenvalue, largest modulus first.
     pub eigenvalues: Vec<EigenvalueReport>,
-    /// `approximate`: no value here has an error bound.
+    /// `exact`: equality is decided; `enclosed`: unequal values are told apart; `approximate`: no value here has an error bound.
     pub arithmetic: &'static str,
+    /// Why it is not exact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why_not_exact: Option<String>,
     /// The largest eigenvalue after 1.
     pub subdominant: Option<SubdominantReport>,
     /// The largest modulus after 1 and the subdominant eigenvalue.
@@ -89,6 +100,8 @@ pub struct ValenceReport {
     pub limit_mask: Option<Vec<WeightReport>>,
     /// Weights of the two tangent masks.
     pub tangent_masks: Option<[Vec<WeightReport>; 2]>,
+    /// The same by orbit, in the form own cos(2 pi s/n) + next cos(2 pi (s+1)/n) for sector s (with sines in the second).
+    pub tangent_forms: Option<Vec<FormReport>>,
     /// The control net of the characteristic map.
     pub characteristic_map: Option<Vec<PointReport>>,
     /// A power of ten above the approximate residuals of all right and left vectors that were computed, and their number.
@@ -100,17 +113,67 @@ pub struct ValenceReport {
     pub rule_weights: Vec<(String, f64)>,
     /// The largest eigenvalue of each frequency, the 1 of the constants left out, for tables.
     #[serde(skip)]
-    pub largest: Vec<Option<[f64; 2]>>,
+    pub largest: Vec<Option<Quantity>>,
     /// Amplitudes of the masks by orbit, for tables.
     #[serde(skip)]
     pub amplitudes: Vec<AmplitudeReport>,
 }
 
-/// One cluster of eigenvalues of one frequency.
+/// A number as tables show it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Quantity {
+    /// Real and imaginary part, approximately.
+    pub value: [f64; 2],
+    /// The value with the digits asked for, all of them right; null where it is approximate.
+    pub decimal: Option<String>,
+    /// The value at this n, in the scheme language; null where arithmetic is not exact.
+    pub exact: Option<String>,
+    /// The value for all n; null likewise, or where there is no such form.
+    pub formula: Option<String>,
+    /// The exact value in LaTeX.
+    #[serde(skip)]
+    pub latex: Option<String>,
+}
+
+impl Quantity {
+    fn approximate(value: [f64; 2]) -> Quantity {
+        Quantity { value, decimal: None, exact: None, formula: None, latex: None }
+    }
+
+    fn of(value: &Value, exact: Option<&Words>, digits: usize) -> Quantity {
+        Quantity {
+            value: [value.midpoint_f64() + 0.0, 0.0],
+            decimal: value.decimal(digits),
+            exact: exact.map(|words| words.text.clone()),
+            formula: None,
+            latex: exact.map(|words| words.latex.clone()),
+        }
+    }
+
+    fn of_eigenvalue(e: &ExactEigenvalue, digits: usize) -> Quantity {
+        let part = |value: &Value| value.midpoint_f64() + 0.0;
+        let decimal = match (e.is_real(), e.re.decimal(digits), e.im.abs().decimal(digits)) {
+            (true, re, _) => re,
+            (false, Some(re), Some(im)) if part(&e.im) < 0.0 => Some(format!("{re} - {im}i")),
+            (false, Some(re), Some(im)) => Some(format!("{re} + {im}i")),
+            _ => None,
+        };
+        Quantity {
+            value: [part(&e.re), part(&e.im)],
+            decimal,
+            exact: e.exact.as_ref().map(|words| words.text.clone()),
+            formula: e.formula.as_ref().map(|words| words.text.clone()),
+            latex: e.exact.as_ref().map(|words| words.latex.clone()),
+        }
+    }
+}
+
+/// One eigenvalue of one frequency, or a cluster of approximately equal ones.
 #[derive(Clone, Debug, Serialize)]
 pub struct EigenvalueReport {
-    /// Real and imaginary part.
-    pub value: [f64; 2],
+    /// The value.
+    #[serde(flatten)]
+    pub quantity: Quantity,
     /// 0..floor(n/2); frequencies k and n-k are one entry.
     pub frequency: usize,
     /// How often it counts, frequencies k and n-k together.
@@ -119,25 +182,18 @@ pub struct EigenvalueReport {
     pub geometric: Option<usize>,
     /// The size of its largest Jordan block; null likewise.
     pub jordan: Option<usize>,
-    /// The value at this n, in the scheme language; null while arithmetic is approximate.
-    pub exact: Option<String>,
-    /// The value for all n; null likewise.
-    pub formula: Option<String>,
 }
 
 /// The subdominant eigenvalue.
 #[derive(Clone, Debug, Serialize)]
 pub struct SubdominantReport {
-    /// Real and imaginary part.
-    pub value: [f64; 2],
+    /// The value.
+    #[serde(flatten)]
+    pub quantity: Quantity,
     /// Its frequency.
     pub frequency: usize,
     /// How often it counts.
     pub multiplicity: usize,
-    /// As [`EigenvalueReport::exact`].
-    pub exact: Option<String>,
-    /// As [`EigenvalueReport::formula`].
-    pub formula: Option<String>,
 }
 
 /// What follows the subdominant eigenvalue.
@@ -145,12 +201,20 @@ pub struct SubdominantReport {
 pub struct SubsubdominantReport {
     /// The largest modulus.
     pub modulus: f64,
-    /// The frequencies that have it, approximately.
+    /// The first eigenvalue of that modulus, exactly.
+    pub exact: Option<String>,
+    /// The frequencies that have it.
     pub frequencies: Vec<usize>,
     /// modulus / lambda^2.
     pub ratio: Option<f64>,
-    /// The size of the largest Jordan block; null while arithmetic is approximate.
+    /// The size of the largest Jordan block; null where arithmetic is not exact.
     pub jordan: Option<usize>,
+    /// The modulus for tables.
+    #[serde(skip)]
+    pub shown: Quantity,
+    /// modulus / lambda^2 for tables.
+    #[serde(skip)]
+    pub shown_ratio: Option<Quantity>,
     /// What the ratio says of curvature, for tables; `None` where lambda doesn't dominate.
     #[serde(skip)]
     pub class: Option<CurvatureClass>,
@@ -172,8 +236,13 @@ pub struct ClassicalReport {
     pub value: f64,
     /// |value| / lambda^2.
     pub ratio: Option<f64>,
-    /// As [`EigenvalueReport::exact`].
+    /// As [`Quantity::exact`].
     pub exact: Option<String>,
+    /// As [`Quantity::formula`].
+    pub formula: Option<String>,
+    /// The ratio for tables.
+    #[serde(skip)]
+    pub shown_ratio: Option<Quantity>,
 }
 
 /// A weight of a mask.
@@ -189,6 +258,28 @@ pub struct WeightReport {
     pub orbit: Option<[i32; 2]>,
     /// The weight.
     pub weight: f64,
+    /// The weight with the digits asked for, where all of them are right.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decimal: Option<String>,
+    /// The weight at this n, in the scheme language.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exact: Option<String>,
+    /// The same in LaTeX.
+    #[serde(skip)]
+    pub latex: Option<String>,
+}
+
+/// The tangent masks' weights on an orbit.
+#[derive(Clone, Debug, Serialize)]
+pub struct FormReport {
+    /// The position's name, or its address.
+    pub at: String,
+    /// The orbit.
+    pub orbit: [i32; 2],
+    /// What multiplies cos(2 pi s/n).
+    pub own: Quantity,
+    /// What multiplies cos(2 pi (s+1)/n).
+    pub next: Quantity,
 }
 
 /// A control point of the characteristic map.
@@ -211,19 +302,17 @@ pub struct ResidualReport {
     pub vectors: usize,
 }
 
-/// The amplitudes of the masks on an orbit.
+/// The amplitudes of the limit mask on an orbit.
 #[derive(Clone, Debug)]
 pub struct AmplitudeReport {
     /// The orbit's name.
     pub at: String,
     /// Its weight in the limit mask.
-    pub limit: Option<f64>,
-    /// Modulus r and phase: the tangent masks' weights in sector s are r cos(2 pi (s + phase)/n) and r sin(...).
-    pub tangent: Option<(f64, f64)>,
+    pub limit: Option<Quantity>,
 }
 
 impl Report {
-    /// Assembles the report of analyses. `sums` are what the check of the scheme file found.
+    /// Assembles the report of analyses. `sums` are what the check of the scheme file found; numbers are shown with `digits` decimals.
     ///
     /// # Errors
     /// When a claimed value can't be computed.
@@ -232,6 +321,7 @@ impl Report {
         analyzer: &Analyzer,
         analyses: Vec<Analysis>,
         sums: &[RuleSum],
+        digits: usize,
     ) -> Result<Report, Obstacle> {
         let names = OrbitNames::of(&Refinement::<f64>::new(scheme, None), analyzer.lattice());
         let judged: Vec<(Analysis, Vec<Verdict>)> = analyses
@@ -243,7 +333,7 @@ impl Report {
             .collect();
         let claims = check_claims(scheme, &judged, &|name| names.orbit(name))?;
         let valences: Vec<ValenceReport> =
-            judged.iter().map(|(analysis, verdicts)| valence_report(analysis, verdicts, &names)).collect();
+            judged.iter().map(|(analysis, verdicts)| valence_report(analysis, verdicts, &names, digits)).collect();
         let keys = references(scheme, &valences, &claims);
         Ok(Report {
             format: FORMAT,
@@ -264,6 +354,8 @@ impl Report {
                 .map(|p| (p.name.clone(), p.value.formula.text().to_string()))
                 .collect(),
             sources: keys,
+            all_valences: analyzer.forms().ok().map(|forms| all_valences(forms, scheme, &names)),
+            why_no_formulas: analyzer.forms().err().map(str::to_string),
             valences,
             claims,
         })
@@ -284,54 +376,127 @@ fn references(scheme: &Scheme, valences: &[ValenceReport], claims: &[ClaimCheck]
     keys.into_iter().map(|key| Reference { key: key.clone(), citation: citation(key) }).collect()
 }
 
-fn valence_report(analysis: &Analysis, verdicts: &[Verdict], names: &OrbitNames) -> ValenceReport {
+fn valence_report(analysis: &Analysis, verdicts: &[Verdict], names: &OrbitNames, digits: usize) -> ValenceReport {
     let n = analysis.valence;
-    let lambda = analysis.lambda.map(|e| e.value.re);
     let (residual, vectors) = analysis.spectrum.approx_residual(&analysis.blocks, &analysis.cores);
-    let classical = |e: Option<Eigenvalue>| {
-        e.map(|e| ClassicalReport {
-            value: e.real().unwrap_or(e.modulus()),
-            ratio: lambda.map(|lambda| e.modulus() / (lambda * lambda)),
-            exact: None,
-        })
-    };
+    let forms = tangent_forms(analysis, names, digits);
     ValenceReport {
         n,
         size: analysis.local.size(),
         steps: 1,
         dilation: 2,
-        eigenvalues: analysis.spectrum.distinct().iter().map(|e| eigenvalue_report(e, n)).collect(),
-        arithmetic: "approximate",
-        subdominant: analysis.spectrum.subdominant().map(|e| SubdominantReport {
-            value: pair(e.value),
-            frequency: e.frequency,
-            multiplicity: e.multiplicity(n),
-            exact: None,
-            formula: None,
-        }),
-        subsubdominant: subsubdominant_report(analysis),
-        curvature: CurvatureReport {
-            cup: classical(analysis.classical.cup),
-            saddle: classical(analysis.classical.saddle),
+        eigenvalues: eigenvalues(analysis, digits),
+        arithmetic: match analysis.exact.as_ref().map(|exact| exact.arithmetic) {
+            Ok(Arithmetic::Exact) => "exact",
+            Ok(Arithmetic::Enclosed) => "enclosed",
+            Err(_) => "approximate",
         },
-        limit_mask: analysis.limit_mask.as_ref().map(|mask| mask_report(mask, analysis, names)),
+        why_not_exact: match &analysis.exact {
+            Ok(exact) => exact.why_enclosed.clone(),
+            Err(why) => Some(why.clone()),
+        },
+        subdominant: subdominant_report(analysis, digits),
+        subsubdominant: subsubdominant_report(analysis, digits),
+        curvature: CurvatureReport {
+            cup: analysis.classical.cup.map(|e| classical_report(analysis, &e, digits)),
+            saddle: analysis.classical.saddle.map(|e| classical_report(analysis, &e, digits)),
+        },
+        limit_mask: limit_report(analysis, names, digits),
         tangent_masks: analysis
             .tangent_masks
             .as_ref()
             .map(|masks| masks.each_ref().map(|m| mask_report(m, analysis, names))),
+        tangent_forms: forms,
         characteristic_map: net_report(analysis),
         residual: ResidualReport { bound: bound(residual), vectors },
         verdicts: verdicts.to_vec(),
         rule_weights: rule_weights(analysis, names),
-        largest: largest_by_frequency(analysis),
-        amplitudes: amplitudes(analysis, names),
+        largest: largest_by_frequency(analysis, digits),
+        amplitudes: amplitudes(analysis, names, digits),
     }
 }
 
-fn largest_by_frequency(analysis: &Analysis) -> Vec<Option<[f64; 2]>> {
+/// The exact analysis, where it tells all eigenvalues apart.
+fn told_apart(analysis: &Analysis) -> Option<&ExactAnalysis> {
+    let exact = analysis.exact.as_ref().ok()?;
+    exact.eigenvalues.iter().all(|e| e.algebraic.is_some()).then_some(exact)
+}
+
+fn eigenvalues(analysis: &Analysis, digits: usize) -> Vec<EigenvalueReport> {
+    let n = analysis.valence;
+    let Some(exact) = told_apart(analysis) else {
+        return analysis.spectrum.distinct().iter().map(|e| eigenvalue_report(e, n)).collect();
+    };
+    let report = |e: &ExactEigenvalue| {
+        let blocks = if e.frequency == 0 || 2 * e.frequency == n { 1 } else { 2 };
+        EigenvalueReport {
+            quantity: Quantity::of_eigenvalue(e, digits),
+            frequency: e.frequency,
+            algebraic: blocks * e.algebraic.unwrap_or(0),
+            geometric: e.structure.map(|structure| blocks * structure.geometric),
+            jordan: e.structure.map(|structure| structure.largest),
+        }
+    };
+    exact.eigenvalues.iter().map(report).collect()
+}
+
+fn subdominant_report(analysis: &Analysis, digits: usize) -> Option<SubdominantReport> {
+    let e = analysis.spectrum.subdominant()?;
+    let exact = told_apart(analysis).and_then(|exact| Some(&exact.eigenvalues[exact.subdominant?]));
+    let quantity = exact.map_or(Quantity::approximate(pair(e.value)), |e| Quantity::of_eigenvalue(e, digits));
+    let frequency = exact.map_or(e.frequency, |e| e.frequency);
+    let multiplicity = match exact.and_then(|e| e.algebraic) {
+        Some(times) if frequency == 0 || 2 * frequency == analysis.valence => times,
+        Some(times) => 2 * times,
+        None => e.multiplicity(analysis.valence),
+    };
+    Some(SubdominantReport { quantity, frequency, multiplicity })
+}
+
+fn classical_report(analysis: &Analysis, e: &Eigenvalue, digits: usize) -> ClassicalReport {
+    let lambda = analysis.lambda.map(|e| e.value.re);
+    let inside = |own: &ExactEigenvalue, exact: &ExactAnalysis| {
+        own.orbits.iter().any(|core| core.iter().all(|t| analysis.classical.orbits.contains(&exact.orbits[*t])))
+    };
+    let own = told_apart(analysis).and_then(|exact| {
+        let own = exact.after_one().find(|(_, own)| own.frequency == e.frequency && inside(own, exact));
+        own.map(|(index, own)| (exact, index, own))
+    });
+    ClassicalReport {
+        value: e.real().unwrap_or(e.modulus()),
+        ratio: lambda.map(|lambda| e.modulus() / (lambda * lambda)),
+        exact: own.and_then(|(_, _, own)| own.exact.as_ref()).map(|words| words.text.clone()),
+        formula: own.and_then(|(_, _, own)| own.formula.as_ref()).map(|words| words.text.clone()),
+        shown_ratio: match (own, lambda) {
+            (Some((exact, index, _)), Some(_)) => ratio_to_square(exact, index, digits),
+            (None, Some(lambda)) => Some(Quantity::approximate([e.modulus() / (lambda * lambda), 0.0])),
+            _ => None,
+        },
+    }
+}
+
+/// |e|/lambda^2, where lambda is determined; exactly 1 where that is known.
+fn ratio_to_square(exact: &ExactAnalysis, index: usize, digits: usize) -> Option<Quantity> {
+    let lambda = &exact.eigenvalues[exact.lambda?];
+    if exact.against_square.get(index).copied().flatten() == Some(std::cmp::Ordering::Equal) {
+        let one = Words { text: "1".to_string(), latex: "1".to_string() };
+        return Some(Quantity::of(&Value::exact_whole(1), Some(&one), digits));
+    }
+    let modulus = exact.eigenvalues[index].modulus_squared.sqrt().ok()?;
+    let ratio = crate::numbers::Field::over(&modulus, &lambda.modulus_squared).ok()?;
+    Some(Quantity::of(&ratio, None, digits))
+}
+
+fn largest_by_frequency(analysis: &Analysis, digits: usize) -> Vec<Option<Quantity>> {
     let mut largest = vec![None; analysis.valence / 2 + 1];
+    if let Some(exact) = told_apart(analysis) {
+        for (_, e) in exact.after_one() {
+            largest[e.frequency].get_or_insert_with(|| Quantity::of_eigenvalue(e, digits));
+        }
+        return largest;
+    }
     for e in analysis.spectrum.after_one() {
-        largest[e.frequency].get_or_insert(pair(e.value));
+        largest[e.frequency].get_or_insert_with(|| Quantity::approximate(pair(e.value)));
     }
     largest
 }
@@ -343,27 +508,105 @@ fn pair(value: Complex64) -> [f64; 2] {
 
 fn eigenvalue_report(e: &Eigenvalue, n: usize) -> EigenvalueReport {
     EigenvalueReport {
-        value: pair(e.value),
+        quantity: Quantity::approximate(pair(e.value)),
         frequency: e.frequency,
         algebraic: e.multiplicity(n),
         geometric: e.is_isolated().then(|| e.multiplicity(n)),
         jordan: e.is_isolated().then_some(1),
-        exact: None,
-        formula: None,
     }
 }
 
-fn subsubdominant_report(analysis: &Analysis) -> Option<SubsubdominantReport> {
+fn subsubdominant_report(analysis: &Analysis, digits: usize) -> Option<SubsubdominantReport> {
+    let class = curvature_of(analysis).map(|Curvature { class, .. }| class);
+    let lambda = analysis.lambda.map(|e| e.value.re);
+    let over_square = |modulus: f64| lambda.map(|lambda| modulus / (lambda * lambda));
+    if let Some(exact) = told_apart(analysis) {
+        let (index, first) = exact.after_subdominant().next()?;
+        let tied: Vec<_> = exact.after_subdominant().filter(|(_, e)| e.level == first.level).collect();
+        let mut frequencies: Vec<usize> = tied.iter().map(|(_, e)| e.frequency).collect();
+        frequencies.dedup();
+        let jordan: Option<Vec<usize>> = tied.iter().map(|(_, e)| Some(e.structure?.largest)).collect();
+        let modulus = first.modulus_squared.sqrt().ok()?;
+        let positive = first.is_real() && first.re.sign() == Some(std::cmp::Ordering::Greater);
+        let shown = Quantity::of(&modulus, first.exact.as_ref().filter(|_| positive), digits);
+        return Some(SubsubdominantReport {
+            modulus: shown.value[0],
+            exact: first.exact.as_ref().map(|words| words.text.clone()),
+            frequencies,
+            ratio: over_square(shown.value[0]),
+            jordan: jordan.and_then(|sizes| sizes.into_iter().max()),
+            shown,
+            shown_ratio: ratio_to_square(exact, index, digits),
+            class,
+        });
+    }
     let first = analysis.spectrum.after_subdominant().next()?;
     let modulus = first.modulus();
     let tied = analysis.spectrum.after_subdominant().take_while(|e| modulus - e.modulus() <= first.approx_error);
     let mut frequencies: Vec<usize> = tied.map(|e| e.frequency).collect();
     frequencies.sort_unstable();
     frequencies.dedup();
-    let lambda = analysis.lambda.map(|e| e.value.re);
-    let ratio = lambda.map(|lambda| modulus / (lambda * lambda));
-    let class = curvature_class(analysis).map(|(_, class)| class);
-    Some(SubsubdominantReport { modulus, frequencies, ratio, jordan: None, class })
+    let ratio = over_square(modulus);
+    Some(SubsubdominantReport {
+        modulus,
+        exact: None,
+        frequencies,
+        ratio,
+        jordan: None,
+        shown: Quantity::approximate([modulus, 0.0]),
+        shown_ratio: ratio.map(|ratio| Quantity::approximate([ratio, 0.0])),
+        class,
+    })
+}
+
+/// The limit mask; its weights exact where they are known so.
+fn limit_report(analysis: &Analysis, names: &OrbitNames, digits: usize) -> Option<Vec<WeightReport>> {
+    let mut weights = mask_report(analysis.limit_mask.as_ref()?, analysis, names);
+    for weight in &mut weights {
+        let orbit = weight.orbit.map(|[i, j]| (i, j));
+        if let Some(own) = exact_limit(analysis, orbit) {
+            weight.weight = own.value.midpoint_f64() + 0.0;
+            weight.decimal = own.value.decimal(digits);
+            weight.exact = own.exact.as_ref().map(|words| words.text.clone());
+            weight.latex = own.exact.as_ref().map(|words| words.latex.clone());
+        }
+    }
+    weights.retain(|weight| weight.weight != 0.0);
+    Some(weights)
+}
+
+/// The exact weight of an orbit, or (`None`) the centre, in the limit mask.
+fn exact_limit(analysis: &Analysis, orbit: Option<(i32, i32)>) -> Option<&ExactWeight> {
+    let exact = analysis.exact.as_ref().ok()?;
+    let mask = exact.limit_mask.as_ref()?;
+    let Some(orbit) = orbit else { return mask.centre.as_ref() };
+    let index = exact.orbits.iter().position(|own| *own == orbit)?;
+    Some(&mask.orbits[index].0)
+}
+
+/// The tangent masks by orbit: exact, or from the approximate amplitudes a = own + next w^-1.
+fn tangent_forms(analysis: &Analysis, names: &OrbitNames, digits: usize) -> Option<Vec<FormReport>> {
+    let turn = std::f64::consts::TAU / analysis.valence as f64;
+    let exact = analysis.exact.as_ref().ok().and_then(|exact| exact.tangent_mask.as_ref());
+    let masks = analysis.tangent_masks.as_ref()?;
+    let form = |t: usize| {
+        let (i, j) = analysis.local.orbits[t];
+        let (own, next) = match exact {
+            Some(mask) => {
+                let quantity = |weight: &ExactWeight| Quantity::of(&weight.value, weight.exact.as_ref(), digits);
+                (quantity(&mask.orbits[t].0), quantity(&mask.orbits[t].1))
+            }
+            None => {
+                let amplitude = masks[0].amplitudes[t];
+                let next = -amplitude.im / libm::sin(turn);
+                let own = amplitude.re - next * libm::cos(turn);
+                (Quantity::approximate([own + 0.0, 0.0]), Quantity::approximate([next + 0.0, 0.0]))
+            }
+        };
+        FormReport { at: names.name((i, j)), orbit: [i, j], own, next }
+    };
+    let all = (0..analysis.local.orbits.len()).map(form);
+    Some(all.filter(|form| form.own.value[0].abs() > 1e-12 || form.next.value[0].abs() > 1e-12).collect())
 }
 
 fn mask_report(mask: &Mask, analysis: &Analysis, names: &OrbitNames) -> Vec<WeightReport> {
@@ -374,6 +617,9 @@ fn mask_report(mask: &Mask, analysis: &Analysis, names: &OrbitNames) -> Vec<Weig
             sector: (!is_centre).then_some(label.sector),
             orbit: (!is_centre).then_some([label.i, label.j]),
             weight: weight + 0.0,
+            decimal: None,
+            exact: None,
+            latex: None,
         }
     };
     mask.weights(&analysis.local).into_iter().map(report).collect()
@@ -409,17 +655,24 @@ fn rule_weights(analysis: &Analysis, names: &OrbitNames) -> Vec<(String, f64)> {
     weights.into_iter().map(|(sector, weight)| (format!("ring[{sector}]"), weight)).collect()
 }
 
-fn amplitudes(analysis: &Analysis, names: &OrbitNames) -> Vec<AmplitudeReport> {
-    let limit = |orbit: usize| analysis.limit_mask.as_ref().map(|mask| mask.amplitudes[orbit].re + 0.0);
-    let tangent = |orbit: usize| {
-        let amplitude = analysis.tangent_masks.as_ref()?[0].amplitudes[orbit];
-        let turns = -libm::atan2(amplitude.im, amplitude.re) / std::f64::consts::TAU;
-        Some((amplitude.norm_sqr().sqrt(), turns * analysis.valence as f64 + 0.0))
+fn amplitudes(analysis: &Analysis, names: &OrbitNames, digits: usize) -> Vec<AmplitudeReport> {
+    let limit = |t: usize| {
+        let approximate = analysis.limit_mask.as_ref().map(|mask| [mask.amplitudes[t].re + 0.0, 0.0]);
+        let exact = exact_limit(analysis, Some(analysis.local.orbits[t]));
+        exact.map(|own| Quantity::of(&own.value, own.exact.as_ref(), digits)).or(approximate.map(Quantity::approximate))
     };
-    let row = |orbit: usize| AmplitudeReport {
-        at: names.name(analysis.local.orbits[orbit]),
-        limit: limit(orbit),
-        tangent: tangent(orbit),
-    };
+    let row = |t: usize| AmplitudeReport { at: names.name(analysis.local.orbits[t]), limit: limit(t) };
     (0..analysis.local.orbits.len()).map(row).collect()
+}
+
+/// The centre's weight in the limit mask, for tables.
+pub(super) fn centre_weight(v: &ValenceReport) -> Option<Quantity> {
+    let weight = v.limit_mask.as_ref()?.iter().find(|weight| weight.orbit.is_none())?;
+    Some(Quantity {
+        value: [weight.weight, 0.0],
+        decimal: weight.decimal.clone(),
+        exact: weight.exact.clone(),
+        formula: None,
+        latex: weight.latex.clone(),
+    })
 }

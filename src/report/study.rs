@@ -58,6 +58,20 @@ impl Study {
     /// # Errors
     /// Faults of the scheme file, or what stood in the way.
     pub fn of(scheme: &Scheme, valences: &[usize], draw: bool, done: &dyn Fn()) -> Result<Study, NoReport> {
+        Study::with_digits(scheme, valences, DIGITS, draw, done)
+    }
+
+    /// The same with another number of decimals, up to [`MAX_DIGITS`].
+    ///
+    /// # Errors
+    /// As [`Study::of`].
+    pub fn with_digits(
+        scheme: &Scheme,
+        valences: &[usize],
+        digits: usize,
+        draw: bool,
+        done: &dyn Fn(),
+    ) -> Result<Study, NoReport> {
         let place = of_scheme(scheme);
         let sums = refine::check(scheme, valences).map_err(NoReport::Faults)?;
         let analyzer = Analyzer::new(scheme).map_err(&place)?;
@@ -67,7 +81,7 @@ impl Study {
             done();
         }
         let pictures = if draw { pictures(&analyzer, &analyses).map_err(&place)? } else { Vec::new() };
-        let report = Report::new(scheme, &analyzer, analyses, &sums).map_err(&place)?;
+        let report = Report::new(scheme, &analyzer, analyses, &sums, digits.min(MAX_DIGITS)).map_err(&place)?;
         Ok(Study { report, pictures })
     }
 
@@ -76,6 +90,12 @@ impl Study {
         self.pictures.iter().map(Figure::of).collect()
     }
 }
+
+/// The decimals of a report, unless others are asked for.
+pub const DIGITS: usize = 10;
+
+/// The most decimals: values are enclosed a little more narrowly.
+pub const MAX_DIGITS: usize = 100;
 
 /// The schemes whose reports are committed under `reports/atlas/`.
 pub const ATLAS: [&str; 5] = ["loop", "loop-warren", "catmull-clark", "doo-sabin", "catmull-clark-biquadratic"];

@@ -18,7 +18,7 @@ pub fn terminal(report: &Report) -> String {
     );
     let _ = writeln!(
         text,
-        "{:>6} {:>6} {:>13} {:>10} {:>9} {:>10} {:>10} {:>9}",
+        "{:>6} {:>6} {:>13} {:>10} {:>9} {:>10} {:>14} {:>9}",
         "n", "points", "lambda", "|mu|/l^2", "cup/l^2", "saddle/l^2", "curvature", "C1"
     );
     let skipped = report.valences.len().saturating_sub(MOST_ROWS);
@@ -31,11 +31,12 @@ pub fn terminal(report: &Report) -> String {
         text.push_str(&row(&report.valences[report.valences.len() - 1]));
     }
     let affine = report.valences.first().and_then(|v| v.verdicts.first()).map_or("-", verdict_word);
-    let _ = write!(
+    let _ = writeln!(
         text,
-        "\nl is lambda, mu the next eigenvalue over the full neighbourhood. Weights sum to 1: {affine}. All else is\n\
-         approximate (f64): 'seems so' and 'seems not' are evidence, not proof.\n"
+        "\nl is lambda, mu the next eigenvalue over the full neighbourhood. Weights sum to 1: {affine}."
     );
+    text.push_str(&known(report));
+    text.push_str(&formulas(report));
     for claim in report.claims.iter().filter(|claim| claim.outcome != Outcome::Agrees) {
         let _ = writeln!(
             text,
@@ -53,16 +54,55 @@ pub fn terminal(report: &Report) -> String {
     text
 }
 
+/// Decimals beyond these don't fit the summary.
+const MOST_DIGITS: usize = 13;
+
+/// How the numbers are known.
+fn known(report: &Report) -> String {
+    let of = |kind: &str| report.valences.iter().filter(|v| v.arithmetic == kind).count();
+    let (exact, enclosed, rest) = (of("exact"), of("enclosed"), of("approximate"));
+    let what = match (exact, enclosed, rest) {
+        (_, 0, 0) => "Eigenvalues, their order and curvature are exact".to_string(),
+        (0, 0, _) => "All else is approximate (f64)".to_string(),
+        _ => format!("Eigenvalues are exact at {exact} valences, enclosed at {enclosed}, approximate (f64) at {rest}"),
+    };
+    format!("{what}; the characteristic map is sampled:\n'seems so' and 'seems not' are evidence, not proof.\n")
+}
+
+/// What holds for every n, in two lines.
+fn formulas(report: &Report) -> String {
+    let Some(all) = &report.all_valences else {
+        return report
+            .why_no_formulas
+            .as_ref()
+            .map_or(String::new(), |why| format!("No closed forms for all n: {why}.\n"));
+    };
+    let mut text = String::new();
+    if let Some(lambda) = &all.subdominant {
+        let except = all.except.map_or(String::new(), |n| format!(" but {n}"));
+        let _ = writeln!(text, "For every n >= {}{except}: lambda = {}", all.from, lambda.formula);
+    }
+    for identity in all.identities.iter().filter(|identity| identity.holds) {
+        let _ = writeln!(text, "{}: {}", identity.claim, identity.states);
+    }
+    text
+}
+
 fn row(v: &ValenceReport) -> String {
     let short = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.6}"));
     let mu = v.subsubdominant.as_ref();
     let curvature = mu.and_then(|mu| mu.class).map(CurvatureClass::words);
     let c1 = v.verdicts.iter().find(|verdict| verdict.claim == "C1").map_or("-", verdict_word);
     let lambda = v.subdominant.as_ref().map_or("-".to_string(), |e| {
-        if e.value[1] == 0.0 { format!("{:.10}", e.value[0]) } else { format!("{:.4}{:+.4}i", e.value[0], e.value[1]) }
+        let [re, im] = e.quantity.value;
+        match &e.quantity.decimal {
+            Some(decimal) if im == 0.0 => decimal.chars().take(MOST_DIGITS).collect(),
+            _ if im == 0.0 => format!("{re:.10}"),
+            _ => format!("{re:.4}{im:+.4}i"),
+        }
     });
     format!(
-        "{:>6} {:>6} {:>13} {:>10} {:>9} {:>10} {:>10} {:>9}\n",
+        "{:>6} {:>6} {:>13} {:>10} {:>9} {:>10} {:>14} {:>9}\n",
         v.n,
         v.size,
         lambda,

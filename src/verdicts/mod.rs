@@ -8,9 +8,11 @@ mod claims;
 pub use claims::{ClaimCheck, Outcome, check_claims};
 
 use crate::analysis::Analysis;
+use crate::analysis::exact::{Arithmetic, ExactAnalysis, ExactEigenvalue};
 use crate::analysis::spectrum::{Eigenvalue, near};
 use crate::scheme::RuleSum;
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 
 /// How a question is decided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -88,6 +90,35 @@ fn undecided(claim: &str, states: &str, value: String, evidence: Evidence, why: 
     }
 }
 
+/// How exact or enclosed numbers say "this holds".
+fn decided(holds: bool) -> Decision {
+    if holds { Decision::Proved } else { Decision::Refuted }
+}
+
+impl Verdict {
+    /// The same condition decided, with what decided it in place of the reasons.
+    fn by(mut self, holds: bool, exact: &ExactAnalysis, why: impl Into<String>) -> Verdict {
+        self.verdict = decided(holds);
+        self.evidence = says(holds);
+        let how = match exact.arithmetic {
+            Arithmetic::Exact => "in exact arithmetic",
+            Arithmetic::Enclosed => "by enclosures",
+        };
+        self.why = vec![format!("{}, {how}", why.into())];
+        self
+    }
+}
+
+/// An eigenvalue with its frequency, for reasons.
+fn named(e: &ExactEigenvalue) -> String {
+    let value = match &e.exact {
+        Some(words) if words.text.len() <= 40 => words.text.clone(),
+        _ if e.is_real() => digits(e.re.midpoint_f64()),
+        _ => format!("of modulus {}", digits(e.modulus_squared.midpoint_f64().sqrt())),
+    };
+    format!("{value} in frequency {}", e.frequency)
+}
+
 fn says(holds: bool) -> Evidence {
     if holds { Evidence::For } else { Evidence::Against }
 }
@@ -128,6 +159,16 @@ fn regular_part(analysis: &Analysis) -> Verdict {
     } else {
         "a C1 scheme has 1, then 1/2 twice, then less, at the regular valence"
     };
+    let (seen, evidence) = match regular.exactly {
+        Some(true) => {
+            ("what is necessary holds exactly: 1, then 1/2 twice, then less, at the regular valence", Evidence::For)
+        }
+        Some(false) => (
+            "a C1 scheme has 1, then 1/2 twice, then less, at the regular valence: exactly, it has not",
+            Evidence::Against,
+        ),
+        None => (seen, evidence),
+    };
     let why = [seen.to_string(), "contractive difference schemes would decide".to_string()];
     undecided("regular part", states, value, evidence, &why, &["reif-1995", "zorin-2000"])
 }
@@ -137,12 +178,55 @@ fn simple_one(analysis: &Analysis) -> Verdict {
     let (next, error) = analysis.spectrum.subdominant().map_or((0.0, 0.0), |e| (e.modulus(), e.approx_error));
     let why = [format!("the next modulus is {}", digits(next)), APPROXIMATE.to_string()];
     let evidence = below(next, 1.0, error);
-    undecided("1 dominates", states, digits(next), evidence, &why, &["reif-1995", "peters-reif-2008"])
+    let verdict = undecided("1 dominates", states, digits(next), evidence, &why, &["reif-1995", "peters-reif-2008"]);
+    let Ok(exact) = &analysis.exact else { return verdict };
+    let (Some(one), Some((next, e))) = (exact.one, exact.after_one().next()) else { return verdict };
+    let simple = exact.eigenvalues[one].algebraic == Some(1);
+    let why = format!("the next is {}", named(e));
+    match exact.compare_moduli(one, next) {
+        Some(order) if simple || order != Ordering::Greater => verdict.by(order == Ordering::Greater, exact, why),
+        _ => verdict,
+    }
 }
 
 fn subdominant(analysis: &Analysis) -> Verdict {
     let states = "the subdominant eigenvalue lambda is real and positive, simple in frequencies 1 and n-1, and larger in modulus \
                   than all that follow";
+    let verdict = subdominant_approximately(analysis, states);
+    let Ok(exact) = &analysis.exact else { return verdict };
+    let Some(index) = exact.subdominant else { return verdict };
+    let e = &exact.eigenvalues[index];
+    if exact.lambda.is_none() {
+        return match not_lambda(exact, index) {
+            Some(why) => verdict.by(false, exact, why),
+            None => verdict,
+        };
+    }
+    let Some((rival, next)) = exact.after_subdominant().next() else {
+        return verdict.by(true, exact, "nothing follows");
+    };
+    let why = format!("lambda is {}, the next {}", named(e), named(next));
+    match exact.compare_moduli(index, rival) {
+        Some(Ordering::Greater) => verdict.by(true, exact, why),
+        Some(_) => verdict.by(false, exact, format!("a tie: {why}")),
+        None => verdict,
+    }
+}
+
+/// Why the subdominant eigenvalue is certainly not as it should be.
+fn not_lambda(exact: &ExactAnalysis, index: usize) -> Option<String> {
+    let e = &exact.eigenvalues[index];
+    let largest_of_1 = exact.after_one().find(|(_, other)| other.frequency == 1).map(|(index, _)| index);
+    let behind = largest_of_1.is_none_or(|first| exact.compare_moduli(index, first) == Some(Ordering::Greater));
+    if e.frequency != 1 && behind {
+        return Some(format!("the largest after 1 is {}, not of frequency 1", named(e)));
+    }
+    let wrong = !e.is_real() || e.re.sign() == Some(Ordering::Less) || e.algebraic.is_some_and(|times| times > 1);
+    let certain = e.frequency == 1 && exact.certain[e.level] && wrong && exact.arithmetic == Arithmetic::Exact;
+    certain.then(|| format!("the largest after 1 is {}, not positive and simple there", named(e)))
+}
+
+fn subdominant_approximately(analysis: &Analysis, states: &str) -> Verdict {
     let sources = ["reif-1995", "peters-reif-1998"];
     let Some(lambda) = analysis.lambda else {
         let Some(e) = analysis.spectrum.subdominant() else {
@@ -217,11 +301,18 @@ fn c1(conditions: &[Verdict]) -> Verdict {
     let against = conditions.iter().find(|verdict| verdict.evidence == Evidence::Against);
     let unclear = conditions.iter().find(|verdict| verdict.evidence == Evidence::None);
     let (evidence, why) = match (against, unclear) {
+        (Some(verdict), _) if verdict.verdict == Decision::Refuted => {
+            (Evidence::Against, format!("the condition '{}' is refuted", verdict.claim))
+        }
         (Some(verdict), _) => (Evidence::Against, format!("the condition '{}' seems to fail", verdict.claim)),
         (None, Some(verdict)) => (Evidence::None, format!("the condition '{}' is not seen either way", verdict.claim)),
-        _ => (Evidence::For, "all conditions above hold as far as floating numbers see".to_string()),
+        _ => {
+            let proved = |verdict: &&Verdict| verdict.verdict == Decision::Proved;
+            let names: Vec<&str> = conditions.iter().filter(proved).map(|verdict| verdict.claim.as_str()).collect();
+            (Evidence::For, format!("proved: {}; the others hold as far as floating numbers see", names.join(", ")))
+        }
     };
-    let why = [why, "no proof has been made".to_string()];
+    let why = [why, "the characteristic map has not been proved regular and injective".to_string()];
     undecided("C1", states, "-".to_string(), evidence, &why, &["reif-1995", "peters-reif-2008"])
 }
 
@@ -243,7 +334,17 @@ fn slope_ratio(analysis: &Analysis) -> Verdict {
     let evidence = below(ratio, 1.0, rival.map_or(0.0, |e| e.approx_error / lambda.value.re));
     let at =
         rival.map_or("no other frequency".to_string(), |e| format!("the largest is that of frequency {}", e.frequency));
-    undecided("slope ratios", states, digits(ratio), evidence, &[at, APPROXIMATE.to_string()], &["doo-sabin-1978"])
+    let why = [at, APPROXIMATE.to_string()];
+    let verdict = undecided("slope ratios", states, digits(ratio), evidence, &why, &["doo-sabin-1978"]);
+    let Ok(exact) = &analysis.exact else { return verdict };
+    let rival = exact.after_one().find(|(_, e)| e.frequency != 1);
+    match (exact.lambda, rival) {
+        (Some(lambda), Some((index, e))) => match exact.compare_moduli(lambda, index) {
+            Some(order) => verdict.by(order == Ordering::Greater, exact, format!("the largest other is {}", named(e))),
+            None => verdict,
+        },
+        _ => verdict,
+    }
 }
 
 /// Doo and Sabin's ratios: cup (frequency 0) and saddle (frequency 2) against lambda^2, on the smallest neighbourhood.
@@ -266,7 +367,29 @@ fn classical(analysis: &Analysis, frequency: usize) -> Verdict {
     let tie = (ratio - 1.0).abs() <= TIE.max(4.0 * e.approx_error);
     let evidence = if tie { Evidence::None } else { Evidence::Against };
     let why = if tie { "1 as far as floating numbers see: an identity would decide" } else { APPROXIMATE };
-    undecided(claim, &states, digits(ratio), evidence, &[why.to_string()], &sources)
+    let verdict = undecided(claim, &states, digits(ratio), evidence, &[why.to_string()], &sources);
+    let Ok(exact) = &analysis.exact else { return verdict };
+    match exact_classical(analysis, exact, frequency) {
+        Some((e, Ordering::Equal)) => verdict.by(true, exact, format!("it is lambda^2: {}", named(e))),
+        Some((e, _)) => verdict.by(false, exact, format!("it is {}", named(e))),
+        None => verdict,
+    }
+}
+
+/// The largest eigenvalue of a frequency on the smallest invariant neighbourhood, against lambda^2.
+fn exact_classical<'a>(
+    analysis: &Analysis,
+    exact: &'a ExactAnalysis,
+    frequency: usize,
+) -> Option<(&'a ExactEigenvalue, Ordering)> {
+    let inside = |e: &ExactEigenvalue| {
+        e.orbits.iter().any(|core| core.iter().all(|t| analysis.classical.orbits.contains(&exact.orbits[*t])))
+    };
+    let mut own = exact.after_one().filter(|(_, e)| e.frequency == frequency && inside(e));
+    let (index, e) = own.next()?;
+    let order = exact.against_square.get(index).copied().flatten()?;
+    let certain = exact.certain[e.level] || own.next().is_none_or(|(_, other)| other.level != e.level);
+    certain.then_some((e, order))
 }
 
 /// What curvature does, by the largest modulus after lambda over the full neighbourhood.
@@ -277,30 +400,42 @@ fn curvature(analysis: &Analysis) -> Verdict {
     if analysis.lambda.is_none() {
         return undecided("curvature", states, "none".to_string(), Evidence::None, &[no_map(analysis)], &sources);
     }
-    let Some((ratio, class)) = curvature_class(analysis) else {
-        let why = "asked only where lambda dominates: it ties with mu as far as floating numbers see".to_string();
-        return undecided("curvature", states, "none".to_string(), Evidence::None, &[why], &sources);
+    let Some(Curvature { ratio, class, proved }) = curvature_of(analysis) else {
+        let why = match exact_lambda_dominates(analysis) {
+            Some(false) => "asked only where lambda dominates: it ties with mu",
+            _ => "asked only where lambda dominates: it ties with mu as far as floating numbers see",
+        };
+        return undecided("curvature", states, "none".to_string(), Evidence::None, &[why.to_string()], &sources);
     };
-    let (evidence, why) = match class {
-        CurvatureClass::Diverges => (Evidence::Against, "above 1: curvature diverges"),
-        CurvatureClass::Flat => (Evidence::For, "below 1: a flat point, where curvature tends to 0"),
-        CurvatureClass::Tie => (
-            Evidence::None,
-            "1 as far as floating numbers see: if exactly 1, curvature diverges with a Jordan block, and else is bounded and \
-             converges only if all eigenfunctions of that modulus are quadratic polynomials in the characteristic map",
-        ),
+    let evidence = match class {
+        CurvatureClass::Diverges | CurvatureClass::DivergesSlowly => Evidence::Against,
+        CurvatureClass::Tie => Evidence::None,
+        _ => Evidence::For,
     };
-    let why = [why.to_string(), APPROXIMATE.to_string()];
-    undecided("curvature", states, format!("|mu|/lambda^2 = {}", digits(ratio)), evidence, &why, &sources)
+    let value = format!("|mu|/lambda^2 = {}", digits(ratio));
+    let why = [class.reason().to_string(), APPROXIMATE.to_string()];
+    let verdict = undecided("curvature", states, value, evidence, &why, &sources);
+    match &analysis.exact {
+        Ok(exact) if proved => verdict.by(evidence == Evidence::For, exact, class.reason()),
+        _ => verdict,
+    }
 }
 
-/// What |mu|/lambda^2 says of curvature, as far as floating numbers see.
+/// What |mu|/lambda^2 says of curvature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CurvatureClass {
     /// Above 1.
     Diverges,
-    /// Too near 1 to tell.
+    /// Exactly 1, with a Jordan block.
+    DivergesSlowly,
+    /// Too near 1 for floating numbers to tell.
     Tie,
+    /// Exactly 1, without a Jordan block; whether curvature converges is not decided.
+    Bounded,
+    /// Exactly 1, without a Jordan block, and some eigenfunction is no quadratic polynomial in the characteristic map.
+    BoundedOnly,
+    /// Exactly 1, and all eigenfunctions are such polynomials.
+    Converges,
     /// Below 1.
     Flat,
 }
@@ -310,25 +445,101 @@ impl CurvatureClass {
     pub fn words(self) -> &'static str {
         match self {
             CurvatureClass::Diverges => "diverges",
+            CurvatureClass::DivergesSlowly => "diverges (log)",
             CurvatureClass::Tie => "tie at 1",
+            CurvatureClass::Bounded | CurvatureClass::BoundedOnly => "bounded",
+            CurvatureClass::Converges => "converges",
             CurvatureClass::Flat => "flat",
+        }
+    }
+
+    fn reason(self) -> &'static str {
+        match self {
+            CurvatureClass::Diverges => "above 1: curvature diverges",
+            CurvatureClass::DivergesSlowly => {
+                "exactly 1 with a Jordan block: curvature diverges, with the logarithm of the distance"
+            }
+            CurvatureClass::Tie => {
+                "1 as far as floating numbers see: if exactly 1, curvature diverges with a Jordan block, and else is bounded and \
+                 converges only if all eigenfunctions of that modulus are quadratic polynomials in the characteristic map"
+            }
+            CurvatureClass::Bounded => {
+                "exactly 1 without a Jordan block: curvature is bounded; whether it converges is not decided"
+            }
+            CurvatureClass::BoundedOnly => {
+                "exactly 1 without a Jordan block: curvature is bounded, but doesn't converge: some eigenfunction of that modulus is \
+                 no quadratic polynomial in the characteristic map"
+            }
+            CurvatureClass::Converges => {
+                "exactly 1 without a Jordan block, and all eigenfunctions of that modulus are quadratic polynomials in the \
+                 characteristic map: curvature converges"
+            }
+            CurvatureClass::Flat => "below 1: a flat point, where curvature tends to 0",
         }
     }
 }
 
-/// |mu|/lambda^2 over the full neighbourhood with its class, where lambda is determined and dominates what follows.
-pub fn curvature_class(analysis: &Analysis) -> Option<(f64, CurvatureClass)> {
+/// What is known of curvature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curvature {
+    /// |mu|/lambda^2 over the full neighbourhood, approximately.
+    pub ratio: f64,
+    /// What follows.
+    pub class: CurvatureClass,
+    /// Whether exact or enclosed numbers say so.
+    pub proved: bool,
+}
+
+/// Whether lambda certainly is larger than all that follows, or certainly not.
+fn exact_lambda_dominates(analysis: &Analysis) -> Option<bool> {
+    let exact = analysis.exact.as_ref().ok()?;
+    let next = exact.after_subdominant().next()?.0;
+    exact.compare_moduli(exact.lambda?, next).map(|order| order == Ordering::Greater)
+}
+
+/// What curvature does, where lambda is determined and dominates what follows.
+pub fn curvature_of(analysis: &Analysis) -> Option<Curvature> {
     let (lambda, mu) = (analysis.lambda?.value.re, analysis.spectrum.after_subdominant().next()?);
+    let ratio = mu.modulus() / (lambda * lambda);
+    match exact_lambda_dominates(analysis) {
+        Some(false) => return None,
+        Some(true) => {
+            if let Some(class) = analysis.exact.as_ref().ok().and_then(exact_curvature) {
+                return Some(Curvature { ratio, class, proved: true });
+            }
+        }
+        None => {}
+    }
     if below(mu.modulus(), lambda, mu.approx_error) != Evidence::For {
         return None;
     }
-    let ratio = mu.modulus() / (lambda * lambda);
     let class = match below(ratio, 1.0, mu.approx_error / (lambda * lambda)) {
         Evidence::None => CurvatureClass::Tie,
         Evidence::For => CurvatureClass::Flat,
         Evidence::Against => CurvatureClass::Diverges,
     };
-    Some((ratio, class))
+    Some(Curvature { ratio, class, proved: false })
+}
+
+fn exact_curvature(exact: &ExactAnalysis) -> Option<CurvatureClass> {
+    let (first, _) = exact.after_subdominant().next()?;
+    match exact.against_square.get(first).copied().flatten()? {
+        Ordering::Less => Some(CurvatureClass::Flat),
+        Ordering::Greater => Some(CurvatureClass::Diverges),
+        Ordering::Equal => {
+            let tied =
+                exact.after_subdominant().filter(|(index, _)| exact.against_square[*index] == Some(Ordering::Equal));
+            let sizes: Option<Vec<usize>> = tied.map(|(_, e)| e.structure.map(|structure| structure.largest)).collect();
+            if sizes?.iter().any(|size| *size > 1) {
+                return Some(CurvatureClass::DivergesSlowly);
+            }
+            Some(match exact.converges {
+                Some(true) => CurvatureClass::Converges,
+                Some(false) => CurvatureClass::BoundedOnly,
+                None => CurvatureClass::Bounded,
+            })
+        }
+    }
 }
 
 /// Ten decimals.

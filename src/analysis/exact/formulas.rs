@@ -9,11 +9,14 @@ use super::block::{Block, Wave};
 use super::jordan::{Answer, Structure, structure};
 use super::masks::{Mask, limit_mask, tangent_mask};
 use super::rows::Rows;
+use super::words::{Words, form_in_words, free_in_words};
 use crate::analysis::neighbourhood::Orbit;
 use crate::fault::Fault;
 use crate::mesh::{Lattice, Patch};
+use crate::numbers::closed_form::ClosedForm;
 use crate::numbers::factor::factors;
 use crate::numbers::linear::part;
+use crate::numbers::real_root::of_squares;
 use crate::numbers::roots::roots;
 use crate::numbers::{
     C, C_K, Enclosure, Extension, FIRST_PARAMETER, Field, Free, FreeWorld, N, PerFrequency, Trouble, Univariate,
@@ -189,6 +192,32 @@ impl AllValences {
         let found = roots(&coefficients?).ok()?;
         let modulus = found.iter().filter_map(|root| Some(root.modulus_squared().ok()?.midpoint_f64().sqrt()));
         modulus.max_by(f64::total_cmp)
+    }
+
+    /// Whether the root of an irreducible factor is lambda^2, as an identity; `None` where that is not told by factors alone.
+    pub fn is_square_of_subdominant(&self, factor: &Univariate<Free>) -> Option<bool> {
+        let squares = of_squares(self.subdominant.as_ref()?).ok()?;
+        let common = squares.gcd(factor).ok()?;
+        match common.degree()? {
+            0 => Some(false),
+            degree => (Some(degree) == factor.degree()).then_some(true),
+        }
+    }
+
+    /// An element of the field of lambda, the larger root of its factor, in words.
+    pub fn extension_in_words(&self, value: &Extension<Free>, factor: &Univariate<Free>) -> Option<Words> {
+        let constant = |value: &Free| Some(free_in_words(value, &self.parameters));
+        match (value.value().coefficients(), ClosedForm::of(factor)?.as_slice()) {
+            ([], _) => constant(&Free::whole(0)),
+            ([own], _) => constant(own),
+            ([own, slope], [ClosedForm::Root { mean, scale, radicand, .. }, _]) => {
+                let mean = slope.times(mean).and_then(|part| part.plus(own)).ok()?;
+                let scale = slope.times(scale).ok()?;
+                let form = ClosedForm::Root { mean, scale, radicand: radicand.clone(), positive: true };
+                Some(form_in_words(&form, &self.parameters))
+            }
+            _ => None,
+        }
     }
 
     fn limit(&self) -> Result<Mask<Free>, Trouble> {

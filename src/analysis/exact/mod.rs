@@ -5,6 +5,7 @@
 //! functions: [`formulas`]. What leaves these stages no longer knows its field: enclosures and closed forms in words ([`ExactAnalysis`]).
 
 pub mod block;
+pub mod curvature;
 pub mod formulas;
 pub mod jordan;
 pub mod masks;
@@ -36,7 +37,7 @@ use std::rc::Rc;
 use words::{Described, Words};
 
 /// The bits after the point that values are enclosed with.
-pub const BITS: usize = 256;
+pub const BITS: usize = 384;
 
 /// The largest valence whose spectrum is enclosed; beyond it only what holds for all valences is exact.
 pub const MAX_ENCLOSED: usize = 400;
@@ -167,6 +168,8 @@ pub struct Task<'a> {
     pub orbits: &'a [Orbit],
     /// The forms for all valences, where there are any.
     pub forms: Option<&'a AllValences>,
+    /// The analysis at the regular valence, once it is made.
+    pub regular: Option<&'a ExactAnalysis>,
 }
 
 impl Task<'_> {
@@ -196,11 +199,38 @@ impl Task<'_> {
         if self.valence == self.scheme.regular_valence() { usize::MAX } else { self.valence }
     }
 
+    fn refinement<'w, W: World>(&'w self, world: &'w W) -> Refinement<'w, PerFrequency<W::Value>> {
+        let (dual, aliases) = (self.scheme.is_dual(), Rc::new(Cell::new(0)));
+        Refinement::weighed(self.scheme, ExactWeights::new(world, Count::Number, self.centre(), dual, aliases))
+    }
+
     fn rows<W: World>(&self, world: &W) -> Result<Rows<W::Value>, Obstacle> {
-        let weights =
-            ExactWeights::new(world, Count::Number, self.centre(), self.scheme.is_dual(), Rc::new(Cell::new(0)));
-        let refinement: Refinement<PerFrequency<W::Value>> = Refinement::weighed(self.scheme, weights);
-        Rows::of(&refinement, Patch::new(self.lattice, self.valence), self.orbits)
+        Rows::of(&self.refinement(world), Patch::new(self.lattice, self.valence), self.orbits)
+    }
+
+    /// Whether curvature converges where |mu| = lambda^2 without a Jordan block.
+    fn converges<F: Field>(
+        &self,
+        rows: &Rows<F>,
+        spectrum: &Spectrum<F, BITS>,
+        lambda: &Eigenvalue,
+        tied: &[&Eigenvalue],
+        embedding: Embedding<F, BITS>,
+    ) -> Result<Option<bool>, Obstacle> {
+        let n = self.valence;
+        let twice = |e: &&Eigenvalue| if e.frequency == 0 || 2 * e.frequency == n { 1 } else { 2 };
+        let count: usize = tied.iter().map(|e| twice(e) * e.algebraic.unwrap_or(0)).sum();
+        if n == self.lattice.regular_valence() && count == 3 {
+            let Some(world) = AtValence::new(n as u64) else { return Ok(None) };
+            if curvature::generates_quadratics(&self.refinement(&world), self.lattice)? {
+                return Ok(Some(true));
+            }
+        }
+        let Some(regular) = self.regular else { return Ok(None) };
+        let world = EnclosedWorld::<BITS>;
+        let refinement = self.refinement(&world);
+        let around = curvature::Surroundings { patch: Patch::new(self.lattice, n), refinement: &refinement, regular };
+        curvature::converges(rows, spectrum, lambda, tied, embedding, &around)
     }
 
     fn run_exactly(&self) -> Result<ExactAnalysis, Obstacle> {
@@ -307,14 +337,28 @@ impl Task<'_> {
         };
         analysis.subdominant = subdominant(&analysis);
         analysis.lambda = analysis.subdominant.filter(|index| is_lambda(&analysis.eigenvalues[*index]));
+        let tie = |order: &Option<Ordering>| *order == Some(Ordering::Equal);
         analysis.limit_mask = analysis.one.and_then(|one| limit(&rows, &spectrum, one, n, embedding));
         if let Some(index) = analysis.lambda {
             let e = &spectrum.eigenvalues[index];
             analysis.against_square = against_square(&spectrum, e, embedding)?;
             analysis.tangent_mask = tangents(&rows, &spectrum, e, embedding);
+            let tied: Vec<usize> =
+                (0..analysis.eigenvalues.len()).filter(|e| tie(&analysis.against_square[*e])).collect();
+            if F::EXACT && bounded_at_one(&analysis, &tied) {
+                let tied: Vec<&Eigenvalue> = tied.iter().map(|index| &spectrum.eigenvalues[*index]).collect();
+                analysis.converges = self.converges(&rows, &spectrum, e, &tied, embedding)?;
+            }
         }
         Ok(analysis)
     }
+}
+
+/// Whether |mu| = lambda^2 exactly, and no eigenvalue of that modulus has a Jordan block.
+fn bounded_at_one(analysis: &ExactAnalysis, tied: &[usize]) -> bool {
+    let plain = |index: &usize| analysis.eigenvalues[*index].structure.is_some_and(|structure| structure.largest == 1);
+    let first = analysis.after_subdominant().next().map(|(index, _)| index);
+    first.is_some_and(|first| tied.contains(&first)) && tied.iter().all(plain)
 }
 
 const TOO_LARGE_A_FIELD: &str = "the field of the cosines has too large a degree";

@@ -128,6 +128,21 @@ pub fn form_in_words(form: &ClosedForm, parameters: &[String]) -> Words {
     Words { text: form.text(&text), latex: form.latex(&latex) }
 }
 
+/// The roots of a factor over the free world; those of a factor without closed forms are named together.
+pub fn factor_in_words(factor: &Univariate<Free>, parameters: &[String]) -> Vec<Words> {
+    if let Some(forms) = ClosedForm::of(factor) {
+        return forms.iter().map(|form| form_in_words(form, parameters)).collect();
+    }
+    let written =
+        |value: &Free| (free_in_words(value, parameters), *value == Free::whole(1), value.is_certainly_zero());
+    let terms: Vec<(Words, bool, bool)> = factor.coefficients().iter().map(written).collect();
+    let polynomial = polynomial_in_words(&terms);
+    vec![Words {
+        text: format!("roots of {}", polynomial.text),
+        latex: format!("\\text{{roots of }}{}", polynomial.latex),
+    }]
+}
+
 /// A rational function, with the names of free parameters.
 pub fn free_in_words(value: &Free, parameters: &[String]) -> Words {
     form_in_words(&ClosedForm::Rational(value.clone()), parameters)
@@ -313,36 +328,31 @@ fn term(p: u64, order: u64, part: &RBig) -> Words {
 
 /// A root by its polynomial and its number.
 fn numbered(polynomial: &Univariate<Cosine>, index: usize) -> Option<Words> {
-    let mut text = Vec::new();
-    let mut latex = Vec::new();
-    for (power, coefficient) in polynomial.coefficients().iter().enumerate().rev() {
-        if coefficient.is_certainly_zero() {
-            continue;
-        }
-        let words = coefficient.in_words()?;
-        let is_one = *coefficient == Cosine::whole(1);
+    let written = |value: &Cosine| Some((value.in_words()?, *value == Cosine::whole(1), value.is_certainly_zero()));
+    let terms: Option<Vec<(Words, bool, bool)>> = polynomial.coefficients().iter().map(written).collect();
+    let polynomial = polynomial_in_words(&terms?);
+    Some(Words {
+        text: format!("root {} of {}", index + 1, polynomial.text),
+        latex: format!("\\text{{root {} of }}{}", index + 1, polynomial.latex),
+    })
+}
+
+/// A polynomial in x from its coefficients, low to high: each written, whether it is 1, and whether it is 0.
+fn polynomial_in_words(coefficients: &[(Words, bool, bool)]) -> Words {
+    let (mut text, mut latex) = (Vec::new(), Vec::new());
+    for (power, (words, is_one, _)) in coefficients.iter().enumerate().filter(|(_, (_, _, zero))| !zero).rev() {
         let (x, x_latex) = match power {
             0 => (String::new(), String::new()),
             1 => ("x".to_string(), "x".to_string()),
             _ => (format!("x^{power}"), format!("x^{{{power}}}")),
         };
-        match (is_one && power > 0, power) {
-            (true, _) => {
-                text.push(x);
-                latex.push(x_latex);
-            }
-            (false, 0) => {
-                text.push(format!("({})", words.text));
-                latex.push(format!("\\left({}\\right)", words.latex));
-            }
-            _ => {
-                text.push(format!("({})*{x}", words.text));
-                latex.push(format!("\\left({}\\right){x_latex}", words.latex));
-            }
+        if *is_one && power > 0 {
+            text.push(x);
+            latex.push(x_latex);
+        } else {
+            text.push(if power == 0 { format!("({})", words.text) } else { format!("({})*{x}", words.text) });
+            latex.push(format!("\\left({}\\right){x_latex}", words.latex));
         }
     }
-    Some(Words {
-        text: format!("root {} of {}", index + 1, text.join(" + ")),
-        latex: format!("\\text{{root {} of }}{}", index + 1, latex.join(" + ")),
-    })
+    Words { text: text.join(" + "), latex: latex.join(" + ") }
 }

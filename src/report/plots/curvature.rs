@@ -8,7 +8,7 @@ use super::axes::Axes;
 use super::canvas::{Anchor, Area, Canvas, Marker, SMALL, colours, draw, line_height};
 use crate::analysis::Analysis;
 use crate::refine::Obstacle;
-use crate::verdicts::{CurvatureClass, curvature_class};
+use crate::verdicts::{Curvature, CurvatureClass, curvature_of};
 
 struct Point {
     valence: usize,
@@ -26,7 +26,7 @@ pub(super) fn picture(analyses: &[Analysis]) -> Result<Picture, Obstacle> {
         axes.draw(canvas, "|μ|/λ²");
         canvas.dashes((area.x, axes.y(1.0)), area.x + area.width, colours::BLACK, 3);
         regions(canvas, &axes);
-        legend(canvas);
+        legend(canvas, &points);
         for point in &points {
             marker(canvas, point.class, (axes.x(point.valence), axes.y(point.ratio)), radius);
         }
@@ -48,7 +48,7 @@ fn left_out(count: usize) -> String {
 }
 
 fn point(analysis: &Analysis) -> Option<Point> {
-    let (ratio, class) = curvature_class(analysis)?;
+    let Curvature { ratio, class, .. } = curvature_of(analysis)?;
     Some(Point { valence: analysis.valence, ratio, class })
 }
 
@@ -76,14 +76,30 @@ fn regions(canvas: &mut Canvas, axes: &Axes) {
 fn marker(canvas: &mut Canvas, class: CurvatureClass, at: (i32, i32), radius: i32) {
     match class {
         CurvatureClass::Diverges => canvas.marker(Marker::Triangle, at, radius, colours::VERMILLION, None),
-        CurvatureClass::Tie => canvas.marker(Marker::Square, at, radius, colours::BLUE, Some(4)),
+        CurvatureClass::DivergesSlowly => canvas.marker(Marker::Triangle, at, radius, colours::VERMILLION, Some(4)),
+        CurvatureClass::Tie => canvas.marker(Marker::Square, at, radius, colours::BLACK, Some(2)),
+        CurvatureClass::Bounded | CurvatureClass::BoundedOnly => {
+            canvas.marker(Marker::Square, at, radius, colours::BLUE, Some(4));
+        }
+        CurvatureClass::Converges => canvas.marker(Marker::Square, at, radius, colours::BLUE, None),
         CurvatureClass::Flat => canvas.marker(Marker::Circle, at, radius, colours::GREEN, None),
     }
 }
 
-fn legend(canvas: &mut Canvas) {
-    let classes = [CurvatureClass::Diverges, CurvatureClass::Tie, CurvatureClass::Flat];
-    for (x, class) in [210, 450, 690].into_iter().zip(classes) {
+/// The kinds that are there.
+fn legend(canvas: &mut Canvas, points: &[Point]) {
+    let all = [
+        CurvatureClass::Diverges,
+        CurvatureClass::DivergesSlowly,
+        CurvatureClass::Bounded,
+        CurvatureClass::Converges,
+        CurvatureClass::Tie,
+        CurvatureClass::Flat,
+    ];
+    let seen = |class: &&CurvatureClass| points.iter().any(|point| point.class.words() == class.words());
+    let classes: Vec<CurvatureClass> = all.iter().filter(seen).copied().collect();
+    for (index, class) in classes.into_iter().enumerate() {
+        let x = 210 + 200 * index as i32;
         marker(canvas, class, (x, 40), 11);
         canvas.text(class.words(), (x + 26, 40), SMALL, Anchor::Left);
     }
