@@ -27,7 +27,7 @@ pub enum ClosedForm {
         mean: Free,
         /// The factor of the square root; its leading coefficient is positive.
         scale: Free,
-        /// A polynomial without square factors.
+        /// A polynomial that is no square, as far as it could be taken apart.
         radicand: Free,
         /// Whether the square root is added.
         positive: bool,

@@ -24,6 +24,10 @@ impl<const BITS: usize> World for EnclosedWorld<BITS> {
         Err(Trouble::Domain("this name has no value here"))
     }
 
+    fn pi(&self) -> Result<Self::Value, Trouble> {
+        Ok(Enclosure::pi())
+    }
+
     fn cos(&self, angle: &Angle) -> Result<Self::Value, Trouble> {
         Ok(radians(angle)?.cos())
     }

@@ -206,38 +206,20 @@ fn by_values(a: &Polynomial, b: &Polynomial) -> Result<Polynomial, Trouble> {
     Err(TOO_LARGE)
 }
 
-/// The exact square root with a positive leading coefficient, if there is one.
-pub fn square_root(p: &Polynomial) -> Option<Polynomial> {
-    if p.is_zero() {
-        return Some(p.clone());
-    }
-    let content = rational_root(p.content())?;
-    let degrees = std::array::from_fn(|index| p.degree_in(index));
-    if degrees == [0; SLOTS] {
-        return Some(Polynomial::constant(content));
-    }
-    // Gelfond: the height of a factor is at most e^(sum of degrees) times the height of the product.
-    let bits = height_bits(p.terms()) + 3 * degrees.iter().sum::<usize>() / 2 + 3;
-    let substitution = Substitution::new(bits, &degrees, 0).ok()?;
-    let value = UBig::try_from(substitution.value(p.terms())).ok()?;
-    let root = substitution.polynomial(IBig::from(whole_root(&value)?))?.primitive();
-    (root.times(&root).ok()? == p.primitive()).then(|| root.scaled(&content))
-}
-
 fn whole_root(value: &UBig) -> Option<UBig> {
     let (root, rest) = value.sqrt_rem();
     rest.is_zero().then_some(root)
 }
 
 /// The square root of a rational number, if it is rational.
-pub fn rational_root(value: &RBig) -> Option<RBig> {
+pub(super) fn rational_root(value: &RBig) -> Option<RBig> {
     let numerator = UBig::try_from(value.numerator().clone()).ok()?;
     Some(RBig::from_parts(whole_root(&numerator)?.into(), whole_root(value.denominator())?))
 }
 
 /// Polynomials s and d with p = s^2 d, where d has no repeated factor and a whole content without small square divisors;
 /// s is positive at its leading term. When that is too much work, s = 1.
-pub fn square_part(p: &Polynomial) -> (Polynomial, Polynomial) {
+pub(super) fn square_part(p: &Polynomial) -> (Polynomial, Polynomial) {
     parts(p).unwrap_or_else(|_| (Polynomial::whole(1), p.clone()))
 }
 
@@ -252,7 +234,7 @@ fn parts(p: &Polynomial) -> Result<(Polynomial, Polynomial), Trouble> {
 }
 
 /// Numbers s > 0 and d with value = s^2 d, where d is whole and, as far as trial division shows, squarefree.
-pub fn rational_square_part(value: &RBig) -> (RBig, RBig) {
+pub(super) fn rational_square_part(value: &RBig) -> (RBig, RBig) {
     let numerator = value.numerator() * IBig::from(value.denominator().clone());
     if numerator.is_zero() {
         return (RBig::ONE, RBig::ZERO);
@@ -310,11 +292,11 @@ mod tests {
         #[test]
         fn squares_have_roots(f in small()) {
             let square = f.times(&f).unwrap().scaled(&ratio(4, 9));
-            let root = square_root(&square).unwrap();
-            prop_assert_eq!(root.times(&root).unwrap(), square.clone());
             if !f.is_zero() {
+                let (root, rest) = square_part(&square);
+                prop_assert_eq!(root.times(&root).unwrap(), square.clone());
+                prop_assert_eq!(rest, whole(1));
                 let off = square.times(&polynomial(&[(1, 1, 0), (1, 0, 0)])).unwrap();
-                prop_assert_eq!(square_root(&off), None);
                 let (s, d) = square_part(&off);
                 prop_assert_eq!(d.clone(), polynomial(&[(1, 1, 0), (1, 0, 0)]));
                 prop_assert_eq!(s.times(&s).unwrap().times(&d).unwrap(), off);
@@ -328,7 +310,6 @@ mod tests {
         assert_eq!(rational_square_part(&ratio(1, 2)), (ratio(1, 2), ratio(2, 1)));
         assert_eq!(rational_square_part(&RBig::ZERO), (RBig::ONE, RBig::ZERO));
         assert_eq!(rational_root(&ratio(-1, 4)), None);
-        assert_eq!(square_root(&whole(-1)), None);
     }
 
     #[test]

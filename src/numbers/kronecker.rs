@@ -11,7 +11,7 @@ use dashu_int::IBig;
 use dashu_ratio::RBig;
 
 /// The most bits of a value.
-const MAX_VALUE_BITS: usize = 1 << 16;
+const MAX_VALUE_BITS: usize = 1 << 19;
 
 /// The bits of the largest coefficient of the primitive part.
 pub(crate) fn height_bits(terms: &[Term]) -> usize {
@@ -138,7 +138,7 @@ mod tests {
     fn values_have_a_largest_size() {
         let p = polynomial(&[(1, 200, 200)]);
         let degrees = std::array::from_fn(|index| p.degree_in(index));
-        assert!(Substitution::new(9, &degrees, 0).is_err());
+        assert!(Substitution::new(99, &degrees, 0).is_err());
         assert!(Substitution::new(9, &[usize::MAX - 1; SLOTS], 0).is_err());
     }
 }

@@ -173,6 +173,37 @@ impl Atom {
     }
 }
 
+/// A whole power of a number, its size known before it is computed.
+fn constant_power(base: &RBig, exponent: i64) -> Result<Laurent, Trouble> {
+    if base.is_zero() && exponent < 0 {
+        return Err(Trouble::DivisionByZero);
+    }
+    let bits = base.numerator().bit_len().max(base.denominator().bit_len());
+    let unit = base.numerator().bit_len() <= 1 && base.denominator().bit_len() <= 1;
+    let times = usize::try_from(exponent.unsigned_abs()).map_err(|_| TOO_LARGE)?;
+    if !unit && bits.saturating_mul(times) > 4 * MAX_BITS {
+        return Err(TOO_LARGE);
+    }
+    let times = if unit { times % 2 + usize::from(times > 1) * 2 } else { times };
+    let power = base.pow(isize::try_from(times).map_err(|_| TOO_LARGE)?);
+    Laurent::constant(if exponent < 0 { RBig::ONE / power } else { power }).checked()
+}
+
+/// A binomial coefficient of whole numbers, the upper one at most 1000.
+fn binomial(n: &RBig, k: &RBig) -> Result<Laurent, Trouble> {
+    let domain = Trouble::Domain("binom(a, b) takes whole numbers, 0 <= a <= 1000");
+    let whole = |value: &RBig| Laurent::constant(value.clone()).as_whole().ok_or(domain.clone());
+    let (n, k) = (whole(n)?, whole(k)?);
+    if !(0..=1000).contains(&n) {
+        return Err(domain);
+    }
+    if k < 0 || k > n {
+        return Ok(Laurent::whole(0));
+    }
+    let product = (0..k.min(n - k)).fold(RBig::ONE, |product, i| product * RBig::from(n - i) / RBig::from(i + 1));
+    Laurent::constant(product).checked()
+}
+
 impl Field for Laurent {
     fn rational(value: &RBig) -> Self {
         Laurent::constant(value.clone())
@@ -227,6 +258,9 @@ impl Number for Laurent {
     }
 
     fn power(&self, exponent: &Self) -> Result<Self, Trouble> {
+        if let (Some(base), Some(exponent)) = (self.as_constant(), exponent.as_whole()) {
+            return constant_power(&base, exponent);
+        }
         let whole = exponent.as_whole().filter(|e| e.abs() <= MAX_EXPONENT);
         let exponent = whole.ok_or(Trouble::BeyondThisWorld("the exponent is not a small whole number"))?;
         let base = if exponent < 0 { self.inverse()? } else { self.clone() };
@@ -241,6 +275,7 @@ impl Number for Laurent {
             (Function::Sqrt, Some([value])) if value.sign() == Sign::Negative => Err(Trouble::NegativeRoot),
             (Function::Min, Some([a, b])) => Ok(Laurent::constant(a.min(b).clone())),
             (Function::Max, Some([a, b])) => Ok(Laurent::constant(a.max(b).clone())),
+            (Function::Binom, Some([n, k])) => binomial(n, k),
             (Function::Binom | Function::Min | Function::Max, _) => {
                 Err(Trouble::BeyondThisWorld("binom, min and max are decided for numbers only"))
             }

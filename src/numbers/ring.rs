@@ -196,6 +196,10 @@ impl<W: World> World for RingWorld<'_, W> {
         if name == "j" { Err(NO_WAVE) } else { Ok(Series::constant(self.base.name(name)?).trimmed()) }
     }
 
+    fn pi(&self) -> Result<Self::Value, Trouble> {
+        Ok(Series::constant(self.base.pi()?))
+    }
+
     fn cos(&self, angle: &Angle) -> Result<Self::Value, Trouble> {
         let (p, start) = (self.wave(angle)?, angle.at_start());
         let zero = W::Value::whole(0);

@@ -18,6 +18,13 @@ pub trait World {
     /// # Errors
     /// When the name has no value here.
     fn name(&self, name: &str) -> Result<Self::Value, Trouble>;
+    /// The circle's constant.
+    ///
+    /// # Errors
+    /// Where numbers are algebraic.
+    fn pi(&self) -> Result<Self::Value, Trouble> {
+        Err(Trouble::BeyondThisWorld("pi is exact only inside of cosines and sines"))
+    }
     /// The cosine of an angle.
     ///
     /// # Errors
@@ -140,9 +147,7 @@ impl Laurent {
 impl Atom {
     fn read<W: World>(&self, world: &W) -> Result<W::Value, Trouble> {
         match self {
-            Atom::Name(name) if name == "pi" => {
-                Err(Trouble::BeyondThisWorld("pi is exact only inside of cosines and sines"))
-            }
+            Atom::Name(name) if name == "pi" => world.pi(),
             Atom::Name(name) => world.name(name),
             Atom::Sum(sum) => sum.read(world),
             Atom::Call(function, arguments) => match (function, arguments.as_slice()) {

@@ -6,7 +6,7 @@
 
 use super::{Obstacle, Weigher};
 use crate::fault::Fault;
-use crate::numbers::{Field, Laurent, PerFrequency, RingWorld, Trouble, World};
+use crate::numbers::{Field, Laurent, Number, PerFrequency, RingWorld, Trouble, World};
 use crate::scheme::vocabulary::RuleKind;
 use crate::scheme::{Entry, Pick, Place, Placed, RuleBook, Weights};
 use std::cell::Cell;
@@ -25,6 +25,9 @@ pub enum Count<F> {
         like: usize,
     },
 }
+
+/// Points of a class by their index, each with its weight.
+type Weighed<F> = Result<Vec<(usize, PerFrequency<F>)>, Obstacle>;
 
 /// The exact weights of a scheme's rules around one centre.
 pub struct ExactWeights<'w, W: World> {
@@ -91,12 +94,7 @@ impl<'w, W: World> ExactWeights<'w, W> {
     }
 
     /// A whole ring around the centre as its first points alone: one for each walk of the class.
-    fn whole_ring(
-        &self,
-        book: &RuleBook,
-        entry: &Entry,
-        place: &Place<Laurent>,
-    ) -> Result<Vec<(usize, PerFrequency<W::Value>)>, Obstacle> {
+    fn whole_ring(&self, book: &RuleBook, entry: &Entry, place: &Place<Laurent>) -> Weighed<W::Value> {
         let walks = entry.position.walks.len();
         match book.select(&entry.weights, place)? {
             Weights::Each(placed) if walks == 1 || !book.uses_index(&placed.formula) => {
@@ -113,13 +111,7 @@ impl<'w, W: World> ExactWeights<'w, W> {
     }
 
     /// Chosen points of a class around a free centre: negative indices stay negative.
-    fn picked(
-        &self,
-        book: &RuleBook,
-        entry: &Entry,
-        picks: &[Pick],
-        place: &Place<Laurent>,
-    ) -> Result<Vec<(usize, PerFrequency<W::Value>)>, Obstacle> {
+    fn picked(&self, book: &RuleBook, entry: &Entry, picks: &[Pick], place: &Place<Laurent>) -> Weighed<W::Value> {
         let mut weights = Vec::new();
         for (at, pick) in picks.iter().enumerate() {
             let Pick::Index(index) = pick else { continue };
@@ -138,13 +130,7 @@ impl<'w, W: World> ExactWeights<'w, W> {
     }
 
     /// Point by point.
-    fn listed(
-        &self,
-        book: &RuleBook,
-        entry: &Entry,
-        size: usize,
-        place: &Place<Laurent>,
-    ) -> Result<Vec<(usize, PerFrequency<W::Value>)>, Obstacle> {
+    fn listed(&self, book: &RuleBook, entry: &Entry, size: usize, place: &Place<Laurent>) -> Weighed<W::Value> {
         let forms = book.weights(entry, size, place).map_err(no_exact_form)?;
         let span = entry.span.clone();
         let read = |(index, form): (usize, Laurent)| match form.read(self.world) {
@@ -152,6 +138,18 @@ impl<'w, W: World> ExactWeights<'w, W> {
             Err(trouble) => Err(told(trouble, span.clone(), place)),
         };
         forms.into_iter().map(read).collect()
+    }
+}
+
+/// The values of formulas in enclosures, point by point: where a formula has no exact form.
+pub struct EnclosedWeights;
+
+impl<F: Number> Weigher<PerFrequency<F>> for EnclosedWeights {
+    fn weights(&self, book: &RuleBook, entry: &Entry, kind: RuleKind, count: usize) -> Weighed<F> {
+        let place = Place::<F>::at(kind.variable(), count as i64);
+        let size = crate::scheme::class_size(entry, kind, count as i64);
+        let weights = book.weights(entry, size, &place).map_err(no_exact_form)?;
+        Ok(weights.into_iter().map(|(index, weight)| (index, PerFrequency::same(weight))).collect())
     }
 }
 
@@ -184,13 +182,7 @@ fn told(trouble: Trouble, span: std::ops::Range<usize>, place: &Place<Laurent>) 
 }
 
 impl<W: World> Weigher<PerFrequency<W::Value>> for ExactWeights<'_, W> {
-    fn weights(
-        &self,
-        book: &RuleBook,
-        entry: &Entry,
-        kind: RuleKind,
-        count: usize,
-    ) -> Result<Vec<(usize, PerFrequency<W::Value>)>, Obstacle> {
+    fn weights(&self, book: &RuleBook, entry: &Entry, kind: RuleKind, count: usize) -> Weighed<W::Value> {
         let place = self.place(kind, count);
         let size = crate::scheme::class_size(entry, kind, count as i64);
         let free = matches!(self.count, Count::Free { .. });

@@ -9,7 +9,7 @@ mod regular;
 mod stencil;
 mod symmetry;
 
-pub use exact_weights::{Count, ExactWeights};
+pub use exact_weights::{Count, EnclosedWeights, ExactWeights};
 pub use names::OrbitNames;
 pub use regular::{PatchRows, RegularStencils};
 pub use stencil::Use;

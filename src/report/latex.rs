@@ -16,6 +16,8 @@ const HEAD: &str = r"\documentclass[10pt]{article}
 % pictures are taken in where their files lie beside this one
 \newcommand{\reportpicture}[2]{\IfFileExists{#1.png}{\begin{figure}[htbp]\centering
   \includegraphics[width=.9\textwidth]{#1.png}\caption{#2}\end{figure}}{}}
+% tables that are wider than the page are made smaller
+\newcommand{\fitted}[1]{\resizebox{\ifdim\width>\textwidth\textwidth\else\width\fi}{!}{#1}}
 \begin{document}
 ";
 
@@ -43,6 +45,9 @@ pub fn latex(report: &Report, figures: &[Figure]) -> String {
 /// Tables of more rows than this may break across pages.
 const MOST_ROWS_ON_A_PAGE: usize = 45;
 
+/// The same where cells wrap.
+const MOST_WRAPPED_ROWS: usize = 12;
+
 /// A table with the rules of booktabs. Columns with sentences wrap.
 fn rows(table: &Table) -> String {
     let longest = |column: usize| table.rows.iter().map(|row| row[column].text.chars().count()).max().unwrap_or(0);
@@ -63,13 +68,14 @@ fn rows(table: &Table) -> String {
         8..=10 => "\\scriptsize",
         _ => "\\tiny",
     };
-    let (environment, endhead) =
-        if table.rows.len() > MOST_ROWS_ON_A_PAGE { ("longtable", "\\endhead\n") } else { ("tabular", "") };
     let head = line(table.head.iter().map(|cell| escaped(cell)).collect());
-    format!(
-        "{{{size}\\setlength{{\\tabcolsep}}{{3pt}}\n\\begin{{{environment}}}{{@{{}}{spec}@{{}}}}\n\\toprule\n{head}\\midrule\n{endhead}\
-         {body}\\bottomrule\n\\end{{{environment}}}\\par}}\n"
-    )
+    let breaks = table.rows.len() > if wide.contains(&true) { MOST_WRAPPED_ROWS } else { MOST_ROWS_ON_A_PAGE };
+    let (environment, endhead) = if breaks { ("longtable", "\\endhead\n") } else { ("tabular", "") };
+    let rows = format!(
+        "\\begin{{{environment}}}{{@{{}}{spec}@{{}}}}\n\\toprule\n{head}\\midrule\n{endhead}{body}\\bottomrule\n\\end{{{environment}}}"
+    );
+    let fitted = if breaks || wide.contains(&true) { rows } else { format!("\\fitted{{{rows}}}") };
+    format!("{{{size}\\setlength{{\\tabcolsep}}{{3pt}}\n{fitted}\\par}}\n")
 }
 
 /// LaTeX with mathematical letters.

@@ -455,12 +455,9 @@ fn subdominant_report(analysis: &Analysis, digits: usize) -> Option<SubdominantR
 
 fn classical_report(analysis: &Analysis, e: &Eigenvalue, digits: usize) -> ClassicalReport {
     let lambda = analysis.lambda.map(|e| e.value.re);
-    let inside = |own: &ExactEigenvalue, exact: &ExactAnalysis| {
-        own.orbits.iter().any(|core| core.iter().all(|t| analysis.classical.orbits.contains(&exact.orbits[*t])))
-    };
     let own = told_apart(analysis).and_then(|exact| {
-        let own = exact.after_one().find(|(_, own)| own.frequency == e.frequency && inside(own, exact));
-        own.map(|(index, own)| (exact, index, own))
+        let index = exact.largest_within(e.frequency, &analysis.classical.orbits)?;
+        Some((exact, index, &exact.eigenvalues[index]))
     });
     ClassicalReport {
         value: e.real().unwrap_or(e.modulus()),

@@ -33,7 +33,7 @@ impl From<&str> for Cell {
 impl Cell {
     /// A closed form.
     fn formula(formula: &Formula) -> Cell {
-        Cell { text: pretty(&formula.formula), latex: Some(format!("${}$", formula.latex)) }
+        Cell { text: pretty(&formula.formula), latex: Some(format!("$\\displaystyle {}$", formula.latex)) }
     }
 
     /// A number with the digits asked for, and its exact form beside it up to a length; `≈` before what is approximate.
@@ -145,8 +145,12 @@ fn formulas(all: &AllValencesReport) -> Table {
             rows.push(vec![k.clone().into(), Cell::formula(&e.form), e.algebraic.to_string().into(), jordan.into()]);
         }
     }
-    let identities: Vec<String> =
-        all.identities.iter().map(|own| format!("{}: {}.", own.claim, pretty(&own.states))).collect();
+    let identities: Vec<String> = all
+        .identities
+        .iter()
+        .filter(|own| own.holds)
+        .map(|own| format!("{}: {}.", own.claim, pretty(&own.states)))
+        .collect();
     let [fixed, per_sector] = all.size;
     let size = if fixed == 0 { format!("{per_sector}n") } else { format!("{fixed} + {per_sector}n") };
     let note = format!(

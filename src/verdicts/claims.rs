@@ -2,6 +2,7 @@
 
 use super::{Evidence, Verdict, bound, digits};
 use crate::analysis::Analysis;
+use crate::analysis::exact::Value;
 use crate::analysis::spectrum::{Eigenvalue, NEAR};
 use crate::fault::Fault;
 use crate::scheme::{Claim, Place, Quantity, Scheme};
@@ -82,7 +83,12 @@ fn check(
             for (analysis, _) in &made {
                 let place = Place::<f64>::at(Some("n"), analysis.valence as i64);
                 let claimed = scheme.book.evaluate(equals, &place)?;
-                pairs.push((analysis.valence, found(analysis, &claim.quantity, orbit_of), claimed));
+                let enclosed =
+                    scheme.book.evaluate(equals, &Place::<Value>::at(Some("n"), analysis.valence as i64)).ok();
+                let own = exactly_found(analysis, &claim.quantity, orbit_of);
+                let meets = own.zip(enclosed).map(|(own, claimed)| own.overlaps(&claimed));
+                let found = found(analysis, &claim.quantity, orbit_of);
+                pairs.push(Pair { valence: analysis.valence, found, claimed, meets });
             }
             compare(&pairs, tolerance(equals.formula.text()))
         }
@@ -98,23 +104,73 @@ fn check(
     })
 }
 
-/// Compares (valence, found, claimed).
-fn compare(pairs: &[(usize, Option<f64>, f64)], tolerance: f64) -> (Outcome, String) {
+/// A value beside the one that is claimed.
+struct Pair {
+    valence: usize,
+    found: Option<f64>,
+    claimed: f64,
+    /// Whether the enclosures of both have a number in common, where both are enclosed.
+    meets: Option<bool>,
+}
+
+fn compare(pairs: &[Pair], tolerance: f64) -> (Outcome, String) {
+    if tolerance <= AGREE && pairs.iter().all(|pair| pair.meets == Some(true)) {
+        return (Outcome::Agrees, format!("equal to {MAX_AGREEING} decimals"));
+    }
+    let differs = |pair: &&Pair| tolerance <= AGREE && pair.meets == Some(false);
     let mut worst = (0, 0.0, 0.0, 0.0);
-    for (n, found, claimed) in pairs {
+    for Pair { valence, found, claimed, .. } in pairs {
         let Some(found) = found else {
-            return (Outcome::Undecided, format!("the analysis has no such value, or none sharp enough, at n = {n}"));
+            return (
+                Outcome::Undecided,
+                format!("the analysis has no such value, or none sharp enough, at n = {valence}"),
+            );
         };
         let difference = (found - claimed).abs();
         if worst.0 == 0 || difference > worst.1 {
-            worst = (*n, difference, *found, *claimed);
+            worst = (*valence, difference, *found, *claimed);
         }
     }
     let (n, difference, found, claimed) = worst;
-    if difference <= tolerance {
-        return (Outcome::Agrees, format!("differs by {} (approximate)", bound(difference)));
+    match pairs.iter().find(differs) {
+        None if difference <= tolerance => (Outcome::Agrees, format!("differs by {} (approximate)", bound(difference))),
+        Some(pair) if difference <= tolerance => (
+            Outcome::Disagrees,
+            format!("at n = {} it certainly differs, by less than {}", pair.valence, bound(difference)),
+        ),
+        _ => (Outcome::Disagrees, format!("at n = {n} it is {}, not {}", digits(found), digits(claimed))),
     }
-    (Outcome::Disagrees, format!("at n = {n} it is {}, not {}", digits(found), digits(claimed)))
+}
+
+/// Enclosures that meet are this narrow.
+const MAX_AGREEING: usize = 100;
+
+/// The enclosure of a quantity at a valence, where there is one.
+fn exactly_found(
+    analysis: &Analysis,
+    quantity: &Quantity,
+    orbit_of: &dyn Fn(&str) -> Option<(i32, i32)>,
+) -> Option<Value> {
+    let exact = analysis.exact.as_ref().ok()?;
+    let real = |index: usize| {
+        let e = &exact.eigenvalues[index];
+        (e.is_real() && e.algebraic.is_some()).then(|| e.re.clone())
+    };
+    match quantity {
+        Quantity::Subdominant => real(exact.subdominant?),
+        Quantity::Cup => real(exact.largest_within(0, &analysis.classical.orbits)?),
+        Quantity::Saddle if analysis.valence >= 4 => real(exact.largest_within(2, &analysis.classical.orbits)?),
+        Quantity::Limit(position) => {
+            let mask = exact.limit_mask.as_ref()?;
+            if position == "centre" {
+                return Some(mask.centre.as_ref()?.value.clone());
+            }
+            let orbit = orbit_of(position)?;
+            let index = exact.orbits.iter().position(|own| *own == orbit)?;
+            Some(mask.orbits[index].0.value.clone())
+        }
+        _ => None,
+    }
 }
 
 fn property(made: &[(&Analysis, &Vec<Verdict>)], quantity: &Quantity) -> (Outcome, String) {

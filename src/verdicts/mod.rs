@@ -382,14 +382,8 @@ fn exact_classical<'a>(
     exact: &'a ExactAnalysis,
     frequency: usize,
 ) -> Option<(&'a ExactEigenvalue, Ordering)> {
-    let inside = |e: &ExactEigenvalue| {
-        e.orbits.iter().any(|core| core.iter().all(|t| analysis.classical.orbits.contains(&exact.orbits[*t])))
-    };
-    let mut own = exact.after_one().filter(|(_, e)| e.frequency == frequency && inside(e));
-    let (index, e) = own.next()?;
-    let order = exact.against_square.get(index).copied().flatten()?;
-    let certain = exact.certain[e.level] || own.next().is_none_or(|(_, other)| other.level != e.level);
-    certain.then_some((e, order))
+    let index = exact.largest_within(frequency, &analysis.classical.orbits)?;
+    Some((&exact.eigenvalues[index], exact.against_square.get(index).copied().flatten()?))
 }
 
 /// What curvature does, by the largest modulus after lambda over the full neighbourhood.

@@ -66,8 +66,8 @@ pub struct Block<F> {
     pub cores: Vec<Vec<usize>>,
 }
 
-/// A sum of powers of w.
-type Powers<F> = BTreeMap<i64, F>;
+/// A sum of powers of w, by exponent.
+pub type Powers<F> = BTreeMap<i64, F>;
 
 impl<F: Field> Block<F> {
     /// The block of the frequencies +-p, or (`None`) of those that no weight tells apart.

@@ -8,7 +8,7 @@
 //! in the cosine form, and the same with sines in the sine form: points on the spokes have `own` alone, points half-way
 //! between two spokes have both alike.
 
-use super::block::{Block, PowersOfW, Unknown, Wave};
+use super::block::{Block, Powers, PowersOfW, Unknown, Wave};
 use super::rows::Rows;
 use crate::numbers::linear::{Matrix, null_space, part, shifted, transposed};
 use crate::numbers::{Field, Trouble};
@@ -114,7 +114,7 @@ fn amplitudes<G: Field>(
     vector: &[G],
     index: usize,
     unknown: Unknown,
-) -> Result<Vec<(usize, BTreeMap<i64, G>)>, Trouble> {
+) -> Result<Vec<(usize, Powers<G>)>, Trouble> {
     let (one, two) = (G::whole(1), G::whole(2));
     match unknown {
         Unknown::Own(t) => {

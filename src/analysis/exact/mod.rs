@@ -22,7 +22,7 @@ use crate::numbers::{
     AtValence, Cosine, EnclosedWorld, Enclosure, Extension, Field, Free, Laurent, PerFrequency, Trouble, Univariate,
     World,
 };
-use crate::refine::{Count, ExactWeights, Obstacle, Refinement};
+use crate::refine::{Count, EnclosedWeights, ExactWeights, Obstacle, Refinement};
 use crate::scheme::{Place, Scheme};
 use block::{Block, Wave};
 use dashu_ratio::RBig;
@@ -33,6 +33,7 @@ use rows::Rows;
 use spectrum::{Eigenvalue, Spectrum};
 use std::cell::Cell;
 use std::cmp::Ordering;
+use std::collections::BTreeSet;
 use std::rc::Rc;
 use words::{Described, Words};
 
@@ -142,6 +143,16 @@ impl ExactAnalysis {
     /// The eigenvalues after 1 and the subdominant one.
     pub fn after_subdominant(&self) -> impl Iterator<Item = (usize, &ExactEigenvalue)> {
         self.after_one().filter(|(index, _)| Some(*index) != self.subdominant)
+    }
+
+    /// The largest eigenvalue of a frequency after 1 among those of cores within some orbits, where it is told apart from others.
+    pub fn largest_within(&self, frequency: usize, orbits: &BTreeSet<Orbit>) -> Option<usize> {
+        let inside = |core: &Vec<usize>| core.iter().all(|t| orbits.contains(&self.orbits[*t]));
+        let own = |e: &ExactEigenvalue| e.frequency == frequency && e.orbits.iter().any(inside);
+        let mut own = self.after_one().filter(|(_, e)| own(e));
+        let (index, e) = own.next()?;
+        let clear = self.certain[e.level] || own.next().is_none_or(|(_, other)| other.level != e.level);
+        clear.then_some(index)
     }
 
     /// The order of the moduli of two eigenvalues, where it is known.
@@ -291,7 +302,13 @@ impl Task<'_> {
 
     fn run_enclosed(&self) -> Result<ExactAnalysis, Obstacle> {
         let world = EnclosedWorld::<BITS>;
-        let rows = self.rows(&world)?;
+        let rows = match self.rows(&world) {
+            Err(Obstacle::Inexact(_)) => {
+                let refinement = Refinement::weighed(self.scheme, EnclosedWeights);
+                Rows::of(&refinement, Patch::new(self.lattice, self.valence), self.orbits)?
+            }
+            rows => rows?,
+        };
         let cosine = |k: usize| {
             let turns = RBig::from(k) / RBig::from(self.valence);
             world.cos(&crate::numbers::Angle::fixed(turns))
@@ -320,7 +337,7 @@ impl Task<'_> {
         };
         let blocks = (0..=n / 2).map(block).collect::<Result<_, Trouble>>()?;
         let spectrum = Spectrum::of(blocks, split, embedding)?;
-        let eigenvalues = spectrum.eigenvalues.iter().map(|e| described(&spectrum, e, embedding, hints, n));
+        let eigenvalues = spectrum.eigenvalues.iter().map(|e| described(&spectrum, e, embedding, hints));
         let mut analysis = ExactAnalysis {
             arithmetic,
             why_enclosed: None,
@@ -424,7 +441,6 @@ fn described<F: Described>(
     e: &Eigenvalue,
     embedding: Embedding<F, BITS>,
     hints: &[Vec<Hint>],
-    n: usize,
 ) -> Result<ExactEigenvalue, Trouble> {
     let (root, block) = (spectrum.root(e), &spectrum.blocks[e.frequency]);
     let orbits = |core: &usize| block.cores[*core].iter().flat_map(|index| block.unknowns[*index].orbits()).collect();
