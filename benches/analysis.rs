@@ -69,6 +69,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let _ = black_box(analyzer.at(*n));
             }
         });
+        let forms = median(21, || drop(black_box(Analyzer::new(&scheme))));
+        row(&format!("{id}: closed forms for all n"), forms, "the analysis of n = 3..12, exact", analysis);
+        let (few, many) =
+            (median(5, || drop(black_box(analyzer.at(11)))), median(5, || drop(black_box(analyzer.at(43)))));
+        row(&format!("{id}: exact analysis, n = 43 (degree 21)"), many, "n = 11 (degree 5)", few);
         let study = median(11, || drop(black_box(Study::of(&scheme, &valences, false, &|| ()))));
         row(&format!("{id}: analysis, n = 3..12"), analysis, "reading, checking and judging too", study);
         let drawn = median(5, || drop(black_box(Study::of(&scheme, &valences, true, &|| ()))));

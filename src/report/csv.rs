@@ -18,7 +18,7 @@ fn push_valence(text: &mut String, v: &ValenceReport) {
     let n = v.n;
     let _ = writeln!(text, "{n},size,,,,,,{},", v.size);
     for (name, weight) in &v.rule_weights {
-        let _ = writeln!(text, "{n},rule weight,{},,,,,{weight},", quoted(name));
+        let _ = writeln!(text, "{n},rule weight,{},,,,,{},", quoted(name), weight.value[0]);
     }
     for e in &v.eigenvalues {
         let value = e.quantity.value;

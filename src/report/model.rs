@@ -110,7 +110,7 @@ pub struct ValenceReport {
     pub verdicts: Vec<Verdict>,
     /// The weights of the rule at the extraordinary point: of the vertex (or corner) rule, on old points.
     #[serde(skip)]
-    pub rule_weights: Vec<(String, f64)>,
+    pub rule_weights: Vec<(String, Quantity)>,
     /// The largest eigenvalue of each frequency, the 1 of the constants left out, for tables.
     #[serde(skip)]
     pub largest: Vec<Option<Quantity>>,
@@ -410,7 +410,7 @@ fn valence_report(analysis: &Analysis, verdicts: &[Verdict], names: &OrbitNames,
         characteristic_map: net_report(analysis),
         residual: ResidualReport { bound: bound(residual), vectors },
         verdicts: verdicts.to_vec(),
-        rule_weights: rule_weights(analysis, names),
+        rule_weights: rule_weights(analysis, names, digits),
         largest: largest_by_frequency(analysis, digits),
         amplitudes: amplitudes(analysis, names, digits),
     }
@@ -635,13 +635,20 @@ fn net_report(analysis: &Analysis) -> Option<Vec<PointReport>> {
 
 /// The weights that the new extraordinary point (dual: the new corner 0) takes from old points. A ring of equal weights is one
 /// entry; a corner rule's weights have one each, up to the opposite corner.
-fn rule_weights(analysis: &Analysis, names: &OrbitNames) -> Vec<(String, f64)> {
+fn rule_weights(analysis: &Analysis, names: &OrbitNames, digits: usize) -> Vec<(String, Quantity)> {
     let local = &analysis.local;
+    let quantity = |label: Label, weight: f64| {
+        let exact = analysis.exact.as_ref().ok().and_then(|exact| exact.rule.iter().find(|(own, _)| *own == label));
+        exact.map_or(Quantity::approximate([weight, 0.0]), |(_, own)| {
+            Quantity::of(&own.value, own.exact.as_ref(), digits)
+        })
+    };
     if let Some(centre) = &local.centre {
-        let own = centre.iter().find(|entry| entry.orbit.is_none()).map(|entry| ("centre".to_string(), entry.weight));
+        let own = centre.iter().find(|entry| entry.orbit.is_none());
+        let own = own.map(|entry| ("centre".to_string(), quantity(Label { sector: 0, i: 0, j: 0 }, entry.weight)));
         let rings = (0..local.orbits.len()).filter_map(|orbit| {
-            let entry = centre.iter().find(|entry| entry.orbit == Some(orbit))?;
-            Some((names.name(local.orbits[orbit]), entry.weight))
+            let (entry, (i, j)) = (centre.iter().find(|entry| entry.orbit == Some(orbit))?, local.orbits[orbit]);
+            Some((names.name((i, j)), quantity(Label { sector: entry.sector, i, j }, entry.weight)))
         });
         return own.into_iter().chain(rings).collect();
     }
@@ -649,7 +656,8 @@ fn rule_weights(analysis: &Analysis, names: &OrbitNames) -> Vec<(String, f64)> {
     let half = first.iter().filter(|entry| entry.orbit == Some(0) && 2 * entry.sector as usize <= analysis.valence);
     let mut weights: Vec<(u32, f64)> = half.map(|entry| (entry.sector, entry.weight)).collect();
     weights.sort_by_key(|(sector, _)| *sector);
-    weights.into_iter().map(|(sector, weight)| (format!("ring[{sector}]"), weight)).collect()
+    let named = |(sector, weight)| (format!("ring[{sector}]"), quantity(Label { sector, i: 0, j: 0 }, weight));
+    weights.into_iter().map(named).collect()
 }
 
 fn amplitudes(analysis: &Analysis, names: &OrbitNames, digits: usize) -> Vec<AmplitudeReport> {

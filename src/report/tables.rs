@@ -116,10 +116,6 @@ fn words(list: &[&str]) -> Vec<String> {
     list.iter().map(|word| (*word).to_string()).collect()
 }
 
-fn or_dash(value: Option<f64>) -> Cell {
-    value.map_or("-".to_string(), digits).into()
-}
-
 /// For which n the forms hold.
 fn range(all: &AllValencesReport) -> String {
     let except = all.except.map_or(String::new(), |n| format!(" except n = {n}, where the regular rule applies"));
@@ -193,9 +189,9 @@ fn weights(report: &Report) -> Table {
             names.push(name.clone());
         }
     }
-    let weight = |v: &ValenceReport, name: &String| v.rule_weights.iter().find(|(own, _)| own == name).map(|(_, w)| *w);
     let row = |v: &ValenceReport| {
-        let cells = names.iter().map(|name| or_dash(weight(v, name)));
+        let weight = |name: &String| v.rule_weights.iter().find(|(own, _)| own == name).map(|(_, weight)| weight);
+        let cells = names.iter().map(|name| Cell::optional(weight(name), SHORT));
         std::iter::once(v.n.to_string().into()).chain(cells).collect()
     };
     let head = names.iter().map(|name| match name.as_str() {

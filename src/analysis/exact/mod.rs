@@ -15,7 +15,7 @@ pub mod words;
 
 use crate::analysis::neighbourhood::Orbit;
 use crate::fault::Fault;
-use crate::mesh::{Lattice, Patch};
+use crate::mesh::{Label, Lattice, Patch};
 use crate::numbers::factor::factors;
 use crate::numbers::real_root::{Embedding, RealRoot};
 use crate::numbers::{
@@ -126,6 +126,8 @@ pub struct ExactAnalysis {
     pub lambda: Option<usize>,
     /// |e| against lambda^2, for every eigenvalue e.
     pub against_square: Vec<Option<Ordering>>,
+    /// The row of the new centre (dual: of the new corner 0): the old points' labels with their weights.
+    pub rule: Vec<(Label, ExactWeight)>,
     /// The limit mask.
     pub limit_mask: Option<ExactMask>,
     /// The tangent masks.
@@ -267,7 +269,25 @@ impl Task<'_> {
         let hints = self.hints(&cosine)?;
         let split =
             |k: usize, polynomial: &Univariate<Cosine>| pieces(polynomial, hints.get(k).map_or(&[], Vec::as_slice));
-        self.analyse(rows, Arithmetic::Exact, &cosine, &split, &embedding, &hints)
+        let mut analysis = self.analyse(rows, Arithmetic::Exact, &cosine, &split, &embedding, &hints)?;
+        analysis.rule = self.rule(world, &embedding)?;
+        Ok(analysis)
+    }
+
+    /// The row of the new centre, point by point.
+    fn rule<W: World<Value: Described>>(
+        &self,
+        world: &W,
+        embedding: Embedding<W::Value, BITS>,
+    ) -> Result<Vec<(Label, ExactWeight)>, Obstacle> {
+        let (dual, aliases) = (self.scheme.is_dual(), Rc::new(Cell::new(0)));
+        let weights = ExactWeights::new(world, Count::Number, usize::MAX, dual, aliases);
+        let refinement: Refinement<PerFrequency<W::Value>> = Refinement::weighed(self.scheme, weights);
+        let patch = Patch::new(self.lattice, self.valence);
+        let row = refinement.row_at(&patch, patch.birth(Label { sector: 0, i: 0, j: 0 }))?;
+        let weight =
+            |value: &W::Value| Ok::<_, Trouble>(ExactWeight { value: embedding(value)?, exact: value.in_words() });
+        row.iter().map(|(label, value)| Ok((*label, weight(&value.general)?))).collect()
     }
 
     /// The factors that the forms for all valences have at this one, by frequency.
@@ -348,6 +368,7 @@ impl Task<'_> {
             subdominant: None,
             lambda: None,
             against_square: vec![],
+            rule: vec![],
             limit_mask: None,
             tangent_mask: None,
             converges: None,
