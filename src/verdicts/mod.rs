@@ -74,7 +74,11 @@ pub fn verdicts(analysis: &Analysis, sums: &[RuleSum]) -> Vec<Verdict> {
         injective_map(analysis),
     ];
     let c1 = c1(&verdicts);
+    let one_is_known = sums.iter().all(|sum| sum.identity);
     verdicts.extend([c1, slope_ratio(analysis), classical(analysis, 0), classical(analysis, 2), curvature(analysis)]);
+    if !one_is_known && analysis.exact.as_ref().is_ok_and(|exact| exact.arithmetic == Arithmetic::Enclosed) {
+        verdicts.iter_mut().for_each(leave_open);
+    }
     verdicts
 }
 
@@ -117,6 +121,14 @@ fn named(e: &ExactEigenvalue) -> String {
         _ => format!("of modulus {}", digits(e.modulus_squared.midpoint_f64().sqrt())),
     };
     format!("{value} in frequency {}", e.frequency)
+}
+
+/// An enclosed eigenvalue near 1 is 1 only if the weights are known to sum to 1.
+fn leave_open(verdict: &mut Verdict) {
+    if verdict.verdict != Decision::Undecided {
+        verdict.verdict = Decision::Undecided;
+        verdict.why.push("the weights are not shown to sum to 1".to_string());
+    }
 }
 
 fn says(holds: bool) -> Evidence {

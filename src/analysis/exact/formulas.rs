@@ -185,8 +185,7 @@ impl AllValences {
 
     /// The largest modulus of a form's roots at a valence; parameters that are free count 1/64.
     fn sample(&self, form: &Univariate<Free>, n: usize) -> Option<f64> {
-        let turn = std::f64::consts::TAU / n as f64;
-        let values = [n as f64, libm::cos(turn), libm::cos(2.0 * turn), 1.0 / 64.0, 1.0 / 64.0, 0.0];
+        let values = sample_values(n);
         let enclosed = |value: &Free| Enclosure::<128>::from_f64(value.evaluate(&values).ok()?).ok();
         let coefficients: Option<Vec<Enclosure<128>>> = form.coefficients().iter().map(enclosed).collect();
         let found = roots(&coefficients?).ok()?;
@@ -210,7 +209,7 @@ impl AllValences {
         match (value.value().coefficients(), ClosedForm::of(factor)?.as_slice()) {
             ([], _) => constant(&Free::whole(0)),
             ([own], _) => constant(own),
-            ([own, slope], [ClosedForm::Root { mean, scale, radicand, .. }, _]) => {
+            ([own, slope], [ClosedForm::Root { mean, scale, radicand, .. }, _]) if self.is_positive(scale) => {
                 let mean = slope.times(mean).and_then(|part| part.plus(own)).ok()?;
                 let scale = slope.times(scale).ok()?;
                 let form = ClosedForm::Root { mean, scale, radicand: radicand.clone(), positive: true };
@@ -218,6 +217,12 @@ impl AllValences {
             }
             _ => None,
         }
+    }
+
+    /// Whether a function of n is positive at all samples.
+    fn is_positive(&self, value: &Free) -> bool {
+        let at = |n: &usize| value.evaluate(&sample_values(*n));
+        SAMPLES.iter().filter(|n| self.holds_at(**n)).all(|n| at(n).is_ok_and(|value| value > 0.0))
     }
 
     fn limit(&self) -> Result<Mask<Free>, Trouble> {
@@ -241,6 +246,12 @@ impl AllValences {
         let lambda = Extension::root(subdominant).ok()?;
         tangent_mask(&self.rows, &block, core, &lambda, |value| Extension::constant(value.clone())).ok()
     }
+}
+
+/// The indeterminates at a valence, the frequency being 2; parameters that are free count 1/64.
+fn sample_values(n: usize) -> [f64; 6] {
+    let turn = std::f64::consts::TAU / n as f64;
+    [n as f64, libm::cos(turn), libm::cos(2.0 * turn), 1.0 / 64.0, 1.0 / 64.0, 0.0]
 }
 
 const NO_CORE: Trouble = Trouble::BeyondThisWorld("the eigenvalue 1 is not simple in frequency 0");

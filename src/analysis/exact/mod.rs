@@ -296,13 +296,17 @@ impl Task<'_> {
         let parameters = self.parameter_values(&forms.parameters)?;
         let parameters: Vec<Cosine> = parameters.iter().map(Cosine::rational).collect();
         let c = cosine(1)?;
+        let approx = |k: usize| libm::cos(std::f64::consts::TAU * k as f64 / self.valence as f64);
+        let approx_parameters: Vec<f64> =
+            parameters.iter().map(|value| value.as_rational().map_or(0.0, |value| value.to_f64().value())).collect();
         let mut hints = Vec::new();
         for k in 0..=self.valence / 2 {
             let values = indeterminates(self.valence, c.clone(), cosine(k)?, &parameters);
             let own = forms.forms_of(self.valence, k).map_or(&[][..], |own| &own.forms);
             let hint = |form: &formulas::Form| {
                 let polynomial = formulas::at(&form.polynomial, &values).ok()?;
-                Some(Hint { polynomial, form: form.polynomial.clone() })
+                let approx = indeterminates(self.valence, approx(1), approx(k), &approx_parameters);
+                Some(Hint { polynomial, form: form.polynomial.clone(), approx })
             };
             hints.push(own.iter().filter_map(hint).collect());
         }
@@ -373,6 +377,9 @@ impl Task<'_> {
             tangent_mask: None,
             converges: None,
         };
+        if analysis.one.is_none() {
+            return Err(Obstacle::Inexact(Fault::whole(NO_ONE)));
+        }
         analysis.subdominant = subdominant(&analysis);
         analysis.lambda = analysis.subdominant.filter(|index| is_lambda(&analysis.eigenvalues[*index]));
         let tie = |order: &Option<Ordering>| *order == Some(Ordering::Equal);
@@ -399,6 +406,8 @@ fn bounded_at_one(analysis: &ExactAnalysis, tied: &[usize]) -> bool {
     first.is_some_and(|first| tied.contains(&first)) && tied.iter().all(plain)
 }
 
+const NO_ONE: &str = "1 is not known to be an eigenvalue: the weights don't sum to 1 exactly, or 1 is not simple";
+
 const TOO_LARGE_A_FIELD: &str = "the field of the cosines has too large a degree";
 
 /// A factor that is known beforehand, with the form for all n that it comes from.
@@ -407,6 +416,8 @@ pub struct Hint {
     pub polynomial: Univariate<Cosine>,
     /// For all.
     pub form: Univariate<Free>,
+    /// The indeterminates' values, approximately.
+    pub approx: Vec<f64>,
 }
 
 /// Splits a monic polynomial: by factors known beforehand, by rational roots, into parts without multiple roots.

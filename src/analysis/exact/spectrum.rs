@@ -135,15 +135,16 @@ impl<F: Field, const BITS: usize> Spectrum<F, BITS> {
         let mut certain = vec![true];
         for index in 1..moduli.len() {
             let ((a, e), (b, f)) = (&moduli[index - 1], &moduli[index]);
-            let same = (e.factor, e.root) == (f.factor, f.root) || self.are_conjugate(e, f);
+            let known = is_certain(&self.factors[e.factor].polynomial);
+            let same = known && (e.factor, e.root) == (f.factor, f.root) || self.are_conjugate(e, f);
             let order = if same { Some(Ordering::Equal) } else { a.compare(b, embedding)? };
             match order {
                 Some(Ordering::Equal) => {}
-                Some(_) => {
+                Some(_) if certain[level] || self.parts_from_level(&moduli, index, level) => {
                     level += 1;
                     certain.push(true);
                 }
-                None => certain[level] = false,
+                _ => certain[level] = false,
             }
             moduli[index].1.level = level;
         }
@@ -151,6 +152,12 @@ impl<F: Field, const BITS: usize> Spectrum<F, BITS> {
         self.eigenvalues.sort_by_key(|e| (e.level, e.frequency));
         self.certain = certain;
         Ok(self)
+    }
+
+    /// Whether a modulus is certainly smaller than all of a level whose order is not known.
+    fn parts_from_level(&self, moduli: &[(RealRoot<F, BITS>, Eigenvalue)], index: usize, level: usize) -> bool {
+        let members = moduli[..index].iter().rev().take_while(|(_, e)| e.level == level);
+        members.into_iter().all(|(own, _)| moduli[index].0.value.compare(&own.value) == Some(Ordering::Less))
     }
 
     fn are_conjugate(&self, e: &Eigenvalue, f: &Eigenvalue) -> bool {
@@ -234,6 +241,9 @@ impl<F: Field, const BITS: usize> Base<'_, F, BITS> {
         let root = |e: &Eigenvalue| &self.factors[e.factor].roots[e.root];
         let all: Vec<Eigenvalue> = found.to_vec();
         for (index, e) in found.iter_mut().enumerate() {
+            if e.algebraic != Some(1) && !is_certain(&self.factors[e.factor].polynomial) {
+                e.algebraic = None;
+            }
             let meets =
                 |(other, f): (usize, &Eigenvalue)| other != index && overlap(&[root(e).clone()], &[root(f).clone()]);
             if root(e).count > 1 || all.iter().enumerate().any(meets) {
@@ -261,6 +271,12 @@ fn add(found: &mut Vec<Eigenvalue>, frequency: usize, (factor, root): (usize, us
             level: 0,
         }),
     }
+}
+
+/// Whether the coefficients are numbers, and no intervals: then equal polynomials have equal roots.
+fn is_certain<F: Field>(polynomial: &Univariate<F>) -> bool {
+    let point = |value: &F| value.minus(value).is_ok_and(|difference| difference.is_certainly_zero());
+    F::EXACT || polynomial.coefficients().iter().all(point)
 }
 
 fn overlap<const BITS: usize>(a: &[Root<BITS>], b: &[Root<BITS>]) -> bool {

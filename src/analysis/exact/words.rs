@@ -76,20 +76,14 @@ impl Described for Cosine {
                     && hint.polynomial.divided(factor).is_ok_and(|(_, rest)| rest.degree().is_none())
         };
         let hint = hints.iter().find(has)?;
-        match &ClosedForm::of(&hint.form)?[..] {
-            [form] => Some(form_at_frequency(form, k)),
-            [plus, minus] => {
-                // the roots are mean +- root: the larger one is that with the sign of the root
-                let mean = hint.polynomial.coefficients().get(1)?.as_cosines().1;
-                let sum: f64 = cosines_value(&hint.polynomial.coefficients()[1], &mean);
-                let larger = root.re.midpoint_f64() >= -sum / 2.0;
-                if !root.is_real() {
-                    return None;
-                }
-                Some(form_at_frequency(if larger { plus } else { minus }, k))
-            }
-            _ => None,
+        if !root.is_real() {
+            return None;
         }
+        let forms = ClosedForm::of(&hint.form)?;
+        let distance = |form: &ClosedForm| Some((approx_value(form, &hint.approx)? - root.re.midpoint_f64()).abs());
+        let nearest = forms.iter().filter_map(|form| Some((distance(form)?, form)));
+        let (_, form) = nearest.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+        Some(form_at_frequency(form, k))
     }
 
     fn extension_in_words(
@@ -108,9 +102,15 @@ impl Described for Cosine {
     }
 }
 
-fn cosines_value(value: &Cosine, parts: &[(usize, RBig)]) -> f64 {
-    let order = value.as_cosines().0 as f64;
-    parts.iter().map(|(p, part)| part.to_f64().value() * libm::cos(std::f64::consts::TAU * *p as f64 / order)).sum()
+/// The value of a closed form, approximately: it tells two roots apart.
+fn approx_value(form: &ClosedForm, values: &[f64]) -> Option<f64> {
+    match form {
+        ClosedForm::Rational(value) => value.evaluate(values).ok(),
+        ClosedForm::Root { mean, scale, radicand, positive } => {
+            let root = radicand.evaluate(values).ok()?.max(0.0).sqrt() * scale.evaluate(values).ok()?;
+            Some(mean.evaluate(values).ok()? + if *positive { root } else { -root })
+        }
+    }
 }
 
 /// A closed form for all n at a frequency that is a number.
