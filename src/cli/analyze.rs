@@ -29,6 +29,9 @@ pub(crate) struct Analyze {
     /// Set a parameter of the scheme, for example w=1/32; may be given several times
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Leave a parameter free in what is exact: eigenvalues as functions of it; one or two, such as w,v
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    symbolic: Vec<String>,
     /// The folder that the report is written into [default: reports/SCHEME]
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -54,7 +57,8 @@ enum Format {
 
 impl Analyze {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let scheme = open(&self.scheme, &self.set)?;
+        let mut scheme = open(&self.scheme, &self.set)?;
+        self.symbolic.iter().try_for_each(|name| scheme.leave_free(name.trim())).map_err(failure)?;
         let draw = !self.no_pictures && self.format.is_none();
         let bar = progress_bar(&self.valence.0);
         let study = Study::with_digits(&scheme, &self.valence.0, self.digits.into(), draw, &|| bar.inc(1));

@@ -9,6 +9,7 @@ mod check;
 mod claim;
 mod evaluate;
 pub mod formula;
+mod parameters;
 mod parse;
 pub mod vocabulary;
 

@@ -19,11 +19,11 @@ use crate::mesh::{Lattice, Patch};
 use crate::numbers::factor::factors;
 use crate::numbers::real_root::{Embedding, RealRoot};
 use crate::numbers::{
-    AtValence, Cosine, EnclosedWorld, Enclosure, Extension, Field, Free, Laurent, PerFrequency, Trouble, Univariate,
+    AtValence, Cosine, EnclosedWorld, Enclosure, Extension, Field, Free, PerFrequency, Trouble, Univariate,
     World,
 };
 use crate::refine::{Count, ExactWeights, Obstacle, Refinement};
-use crate::scheme::{Place, Scheme};
+use crate::scheme::Scheme;
 use block::{Block, Wave};
 use dashu_ratio::RBig;
 use formulas::{AllValences, indeterminates};
@@ -262,8 +262,9 @@ impl Task<'_> {
     /// The factors that the forms for all valences have at this one, by frequency.
     fn hints(&self, cosine: &dyn Fn(usize) -> Result<Cosine, Trouble>) -> Result<Vec<Vec<Hint>>, Obstacle> {
         let Some(forms) = self.forms.filter(|forms| forms.holds_at(self.valence)) else { return Ok(vec![]) };
-        let parameters = self.parameter_values(&forms.parameters)?;
-        let parameters: Vec<Cosine> = parameters.iter().map(Cosine::rational).collect();
+        let values: Option<Vec<RBig>> = forms.parameters.iter().map(|name| self.scheme.rational_value(name)).collect();
+        let Some(values) = values else { return Ok(vec![]) };
+        let parameters: Vec<Cosine> = values.iter().map(Cosine::rational).collect();
         let c = cosine(1)?;
         let mut hints = Vec::new();
         for k in 0..=self.valence / 2 {
@@ -271,22 +272,11 @@ impl Task<'_> {
             let own = forms.forms_of(self.valence, k).map_or(&[][..], |own| &own.forms);
             let hint = |form: &formulas::Form| {
                 let polynomial = formulas::at(&form.polynomial, &values).ok()?;
-                Some(Hint { polynomial, form: form.polynomial.clone() })
+                Some(Hint { polynomial, form: form.polynomial.clone(), parameters: forms.parameters.clone() })
             };
             hints.push(own.iter().filter_map(hint).collect());
         }
         Ok(hints)
-    }
-
-    fn parameter_values(&self, names: &[String]) -> Result<Vec<RBig>, Obstacle> {
-        let book = &self.scheme.book;
-        let value = |name: &String| {
-            let inexact = || Obstacle::Inexact(Fault::whole(format!("`{name}` has no rational value")));
-            let parameter = book.parameters.iter().find(|p| p.name == *name).ok_or_else(inexact)?;
-            let form = book.evaluate(&parameter.value, &Place::<Laurent>::at(None, 0)).map_err(Obstacle::Inexact)?;
-            form.as_constant().ok_or_else(inexact)
-        };
-        names.iter().map(value).collect()
     }
 
     fn run_enclosed(&self) -> Result<ExactAnalysis, Obstacle> {
@@ -369,6 +359,8 @@ pub struct Hint {
     pub polynomial: Univariate<Cosine>,
     /// For all.
     pub form: Univariate<Free>,
+    /// The names of the free parameters.
+    pub parameters: Vec<String>,
 }
 
 /// Splits a monic polynomial: by factors known beforehand, by rational roots, into parts without multiple roots.

@@ -77,7 +77,7 @@ impl Described for Cosine {
         };
         let hint = hints.iter().find(has)?;
         match &ClosedForm::of(&hint.form)?[..] {
-            [form] => Some(form_at_frequency(form, k)),
+            [form] => Some(form_at_frequency(form, k, &hint.parameters)),
             [plus, minus] => {
                 // the roots are mean +- root: the larger one is that with the sign of the root
                 let mean = hint.polynomial.coefficients().get(1)?.as_cosines().1;
@@ -86,7 +86,7 @@ impl Described for Cosine {
                 if !root.is_real() {
                     return None;
                 }
-                Some(form_at_frequency(if larger { plus } else { minus }, k))
+                Some(form_at_frequency(if larger { plus } else { minus }, k, &hint.parameters))
             }
             _ => None,
         }
@@ -114,11 +114,11 @@ fn cosines_value(value: &Cosine, parts: &[(usize, RBig)]) -> f64 {
 }
 
 /// A closed form for all n at a frequency that is a number.
-fn form_at_frequency(form: &ClosedForm, k: usize) -> Words {
+fn form_at_frequency(form: &ClosedForm, k: usize, parameters: &[String]) -> Words {
     let angle = if k == 1 { "2*pi/n".to_string() } else { format!("{}*pi/n", 2 * k) };
     let (text, latex) = (format!("cos({angle})"), if k == 1 { "c".to_string() } else { format!("c_{{{k}}}") });
-    let texts = ["n", "cos(2*pi/n)", &text, "?", "?", "?"];
-    let latexes = ["n", "c", &latex, "?", "?", "?"];
+    let texts = names(&["n", "cos(2*pi/n)", &text], parameters);
+    let latexes = names(&["n", "c", &latex], parameters);
     Words { text: form.text(&texts), latex: form.latex(&latexes) }
 }
 
