@@ -23,8 +23,8 @@ use crate::numbers::{
     chebyshev,
 };
 use crate::refine::{Count, ExactWeights, Obstacle, Refinement};
-use crate::scheme::{Parameter, Place, Scheme};
 use crate::scheme::vocabulary::RuleKind;
+use crate::scheme::{Parameter, Place, Scheme};
 use std::cell::Cell;
 use std::rc::Rc;
 

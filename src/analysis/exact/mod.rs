@@ -19,8 +19,7 @@ use crate::mesh::{Lattice, Patch};
 use crate::numbers::factor::factors;
 use crate::numbers::real_root::{Embedding, RealRoot};
 use crate::numbers::{
-    AtValence, Cosine, EnclosedWorld, Enclosure, Extension, Field, Free, PerFrequency, Trouble, Univariate,
-    World,
+    AtValence, Cosine, EnclosedWorld, Enclosure, Extension, Field, Free, PerFrequency, Trouble, Univariate, World,
 };
 use crate::refine::{Count, ExactWeights, Obstacle, Refinement};
 use crate::scheme::Scheme;
