@@ -10,6 +10,7 @@ pub mod exact;
 pub mod local;
 pub mod masks;
 pub mod neighbourhood;
+pub mod spectra;
 pub mod spectrum;
 
 use crate::mesh::{Lattice, Patch};
@@ -24,6 +25,7 @@ use local::{LocalMatrix, MAX_VALENCE};
 use masks::Mask;
 use neighbourhood::{Influence, Orbit, closure};
 use num_complex::Complex64;
+use spectra::Spectra;
 use spectrum::{Eigenvalue, Spectrum};
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -157,11 +159,10 @@ impl<'a> Analyzer<'a> {
     }
 
     fn find_forms(&self) -> Result<Result<AllValences, String>, Obstacle> {
-        let rows = self.rows(GENERIC);
-        let found = self.influence.orbits(&rows).and_then(|orbits| {
-            let smallest = smallest_invariant(&rows)?;
-            let inside = |t: &usize| smallest.contains(&orbits[*t]);
-            let smallest: Vec<usize> = (0..orbits.len()).filter(inside).collect();
+        // a weight that a parameter's value makes vanish is none where the parameter is free
+        let odd = self.scheme().with_odd_values();
+        let found = Spectra::new(&odd).and_then(|spectra| {
+            let (orbits, smallest) = spectra.neighbourhoods(GENERIC)?;
             AllValences::of(self.scheme(), self.lattice, &orbits, &smallest)
         });
         Ok(found.map_err(|obstacle| obstacle.to_string()))
@@ -170,7 +171,8 @@ impl<'a> Analyzer<'a> {
     fn exact(&self, valence: usize, orbits: &[Orbit]) -> Result<Result<ExactAnalysis, String>, Obstacle> {
         let forms = self.forms.as_ref().ok();
         let regular = self.exact_regular.as_ref();
-        match (Task { scheme: self.scheme(), lattice: self.lattice, valence, orbits, forms, regular }).run() {
+        let scheme = &self.scheme().with_values();
+        match (Task { scheme, lattice: self.lattice, valence, orbits, forms, regular }).run() {
             Ok(analysis) => Ok(Ok(analysis)),
             Err(fault @ Obstacle::Fault(_)) => Err(fault),
             Err(other) => Ok(Err(other.to_string())),

@@ -5,6 +5,7 @@ use super::valences::Valences;
 use super::{Failure, failure, print};
 use clap::{Args, ValueEnum};
 use eigenring::refine::Obstacle;
+use eigenring::report::sweep::{self, Sweep, SweepRequest};
 use eigenring::report::{self, NoReport, Picture, Report, Study};
 use eigenring::scheme::Scheme;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -29,6 +30,12 @@ pub(crate) struct Analyze {
     /// Set a parameter of the scheme, for example w=1/32; may be given several times
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Leave a parameter free in what is exact: eigenvalues as functions of it; one or two, such as w,v
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    symbolic: Vec<String>,
+    /// Tabulate and plot lambda, mu and their ratio against a parameter: w=0..1/8, or with a number of steps w=0..1/8:32
+    #[arg(long, value_name = "NAME=LOW..HIGH", value_parser = SweepRequest::parse)]
+    sweep: Option<SweepRequest>,
     /// The folder that the report is written into [default: reports/SCHEME]
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -54,21 +61,43 @@ enum Format {
 
 impl Analyze {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let scheme = open(&self.scheme, &self.set)?;
+        let mut scheme = open(&self.scheme, &self.set)?;
+        self.symbolic.iter().try_for_each(|name| scheme.leave_free(name.trim())).map_err(failure)?;
         let draw = !self.no_pictures && self.format.is_none();
         let bar = progress_bar(&self.valence.0);
         let study = Study::with_digits(&scheme, &self.valence.0, self.digits.into(), draw, &|| bar.inc(1));
         bar.finish_and_clear();
         let study = study.map_err(|error| explain(&scheme, error))?;
+        let mut study = study;
+        if let Some(request) = &self.sweep {
+            add_sweep(&mut study, &scheme, &self.valence.0, request, draw)?;
+        }
         match self.format {
             Some(format) => print(&one_form(&study.report, format)?),
             None => {
                 let folder = self.out.unwrap_or_else(|| Path::new("reports").join(&scheme.id));
                 let written = write(&study, &folder)?;
-                print(&format!("{}\n{}", report::terminal(&study.report), files_line(&folder, &written)))
+                let sweep = study.report.sweep.as_ref().map_or(String::new(), sweep::terminal);
+                print(&format!("{}{sweep}\n{}", report::terminal(&study.report), files_line(&folder, &written)))
             }
         }
     }
+}
+
+/// The sweep with its picture.
+fn add_sweep(
+    study: &mut Study,
+    scheme: &Scheme,
+    valences: &[usize],
+    request: &SweepRequest,
+    draw: bool,
+) -> Result<(), Failure> {
+    let sweep = Sweep::of(scheme, valences, request).map_err(failure)?;
+    if draw {
+        study.pictures.push(report::sweep_picture(&sweep).map_err(|obstacle| explain(scheme, obstacle))?);
+    }
+    study.report.sweep = Some(sweep);
+    Ok(())
 }
 
 /// A bar on a terminal, when the work takes long enough to ask for one.
@@ -95,7 +124,7 @@ pub(crate) fn explain(scheme: &Scheme, error: impl Into<NoReport>) -> Failure {
 fn one_form(report: &Report, format: Format) -> Result<String, Failure> {
     Ok(match format {
         Format::Json => report::json(report).map_err(|error| failure(error.to_string()))?,
-        Format::Csv => report::csv(report),
+        Format::Csv => report.sweep.as_ref().map_or_else(|| report::csv(report), sweep::sweep_csv),
         Format::Md => report::markdown(report, &[]),
         Format::Latex => report::latex(report, &[]),
     })
@@ -106,6 +135,9 @@ fn write(study: &Study, folder: &Path) -> Result<Vec<String>, Failure> {
     let pictures = &study.pictures;
     let texts = report::texts(&study.report, &study.figures()).map_err(|error| failure(error.to_string()))?;
     let mut files: Vec<(String, Vec<u8>)> = texts.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
+    if let Some(sweep) = &study.report.sweep {
+        files.push(("sweep.csv".to_string(), sweep::sweep_csv(sweep).into_bytes()));
+    }
     for (picture, png) in pictures.iter().zip(painted(pictures)) {
         let png = png.map_err(|error| failure(format!("the picture {}: {error}", picture.name)))?;
         files.push((format!("{}.svg", picture.name), picture.svg.clone().into_bytes()));

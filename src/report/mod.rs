@@ -11,6 +11,7 @@ mod markdown;
 pub mod model;
 pub mod plots;
 mod study;
+pub mod sweep;
 mod tables;
 mod terminal;
 
@@ -19,7 +20,7 @@ pub use files::{write_all_whole, write_whole};
 pub use latex::latex;
 pub use markdown::markdown;
 pub use model::Report;
-pub use plots::{Picture, pictures, png};
+pub use plots::{Picture, pictures, png, sweep_picture};
 pub use study::{ATLAS, DIGITS, MAX_DIGITS, NoReport, Study, atlas};
 pub use tables::{Cell, Table, tables, verdict_word};
 pub use terminal::terminal;
@@ -42,6 +43,7 @@ impl Figure {
             "eigenvalues" => "Largest eigenvalue by frequency",
             "curvature" => "Subdominant eigenvalues and curvature",
             "masks" => "Tangent masks",
+            "sweep" => sweep::TITLE,
             _ => "Conditions",
         };
         Figure { name: picture.name.to_string(), caption: picture.caption.clone(), belongs_to }

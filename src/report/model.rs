@@ -4,6 +4,7 @@
 //! (`"format": 1`). Lists are in a fixed order and floats print shortest: the same input gives the same bytes.
 
 use super::formulas::{AllValencesReport, all_valences};
+use super::sweep::Sweep;
 use crate::analysis::exact::words::Words;
 use crate::analysis::exact::{Arithmetic, ExactAnalysis, ExactEigenvalue, ExactWeight, Value};
 use crate::analysis::masks::Mask;
@@ -46,6 +47,9 @@ pub struct Report {
     pub valences: Vec<ValenceReport>,
     /// What the literature says, beside the analysis.
     pub claims: Vec<ClaimCheck>,
+    /// The leading eigenvalues against a parameter, where that is asked for.
+    #[serde(skip)]
+    pub sweep: Option<Sweep>,
 }
 
 /// How schemes are classified.
@@ -358,6 +362,7 @@ impl Report {
             why_no_formulas: analyzer.forms().err().map(str::to_string),
             valences,
             claims,
+            sweep: None,
         })
     }
 }

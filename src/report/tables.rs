@@ -105,6 +105,7 @@ pub fn tables(report: &Report) -> Vec<Table> {
         tangent_masks(report),
         conditions(report),
     ]);
+    tables.extend(report.sweep.as_ref().map(super::sweep::table));
     if !report.claims.is_empty() {
         tables.push(claims(report));
     }

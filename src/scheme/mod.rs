@@ -9,6 +9,8 @@ mod check;
 mod claim;
 mod evaluate;
 pub mod formula;
+mod interval;
+mod parameters;
 mod parse;
 pub mod vocabulary;
 
@@ -16,6 +18,7 @@ pub(crate) use check::class_size;
 pub use check::{RuleSum, SUM_TOLERANCE};
 pub use claim::{Claim, Quantity};
 pub use evaluate::Place;
+pub use interval::Interval;
 pub use parse::{KEYS, MAX_FILE_BYTES};
 
 use crate::fault::{Fault, Faults};

@@ -23,8 +23,8 @@ use crate::numbers::{
     chebyshev,
 };
 use crate::refine::{Count, ExactWeights, Obstacle, Refinement};
-use crate::scheme::Scheme;
 use crate::scheme::vocabulary::RuleKind;
+use crate::scheme::{Parameter, Place, Scheme};
 use std::cell::Cell;
 use std::rc::Rc;
 
@@ -75,6 +75,8 @@ pub struct AllValences {
     pub except: Option<usize>,
     /// The free parameters.
     pub parameters: Vec<String>,
+    /// Their values, approximately: what is called the largest form is so there.
+    pub approx_values: Vec<f64>,
     /// The rows.
     pub rows: Rows<Free>,
     /// By frequency: 0, those singled out, n/2, all others.
@@ -105,6 +107,8 @@ impl AllValences {
     ) -> Result<AllValences, Obstacle> {
         let parameters: Vec<String> =
             scheme.book.parameters.iter().filter(|p| p.free).map(|p| p.name.clone()).collect();
+        let value = |p: &Parameter| scheme.book.evaluate(&p.value, &Place::<f64>::at(None, 0));
+        let approx_values = scheme.book.parameters.iter().filter(|p| p.free).map(value).collect::<Result<_, _>>()?;
         let world = FreeWorld { parameters: parameters.clone() };
         let aliases = Rc::new(Cell::new(0));
         let count = Count::Free { n: Free::variable(N), like: GENERIC };
@@ -119,6 +123,7 @@ impl AllValences {
             from,
             except,
             parameters,
+            approx_values,
             frequencies: frequencies(&rows)?,
             rows,
             limit_mask: None,
@@ -183,9 +188,9 @@ impl AllValences {
         candidates.into_iter().nth(chosen?)
     }
 
-    /// The largest modulus of a form's roots at a valence; parameters that are free count 1/64.
+    /// The largest modulus of a form's roots at a valence and the parameters' values.
     fn sample(&self, form: &Univariate<Free>, n: usize) -> Option<f64> {
-        let values = sample_values(n);
+        let values = self.sample_values(n);
         let enclosed = |value: &Free| Enclosure::<128>::from_f64(value.evaluate(&values).ok()?).ok();
         let coefficients: Option<Vec<Enclosure<128>>> = form.coefficients().iter().map(enclosed).collect();
         let found = roots(&coefficients?).ok()?;
@@ -219,9 +224,15 @@ impl AllValences {
         }
     }
 
+    /// The indeterminates at a valence, with the parameters' values; the frequency is 2.
+    fn sample_values(&self, n: usize) -> Vec<f64> {
+        let turn = std::f64::consts::TAU / n as f64;
+        indeterminates(n, libm::cos(turn), libm::cos(2.0 * turn), &self.approx_values)
+    }
+
     /// Whether a function of n is positive at all samples.
     fn is_positive(&self, value: &Free) -> bool {
-        let at = |n: &usize| value.evaluate(&sample_values(*n));
+        let at = |n: &usize| value.evaluate(&self.sample_values(*n));
         SAMPLES.iter().filter(|n| self.holds_at(**n)).all(|n| at(n).is_ok_and(|value| value > 0.0))
     }
 
@@ -246,12 +257,6 @@ impl AllValences {
         let lambda = Extension::root(subdominant).ok()?;
         tangent_mask(&self.rows, &block, core, &lambda, |value| Extension::constant(value.clone())).ok()
     }
-}
-
-/// The indeterminates at a valence, the frequency being 2; parameters that are free count 1/64.
-fn sample_values(n: usize) -> [f64; 6] {
-    let turn = std::f64::consts::TAU / n as f64;
-    [n as f64, libm::cos(turn), libm::cos(2.0 * turn), 1.0 / 64.0, 1.0 / 64.0, 0.0]
 }
 
 const NO_CORE: Trouble = Trouble::BeyondThisWorld("the eigenvalue 1 is not simple in frequency 0");

@@ -19,11 +19,10 @@ use crate::mesh::{Label, Lattice, Patch};
 use crate::numbers::factor::factors;
 use crate::numbers::real_root::{Embedding, RealRoot};
 use crate::numbers::{
-    AtValence, Cosine, EnclosedWorld, Enclosure, Extension, Field, Free, Laurent, PerFrequency, Trouble, Univariate,
-    World,
+    AtValence, Cosine, EnclosedWorld, Enclosure, Extension, Field, Free, PerFrequency, Trouble, Univariate, World,
 };
 use crate::refine::{Count, EnclosedWeights, ExactWeights, Obstacle, Refinement};
-use crate::scheme::{Place, Scheme};
+use crate::scheme::Scheme;
 use block::{Block, Wave};
 use dashu_ratio::RBig;
 use formulas::{AllValences, indeterminates};
@@ -293,8 +292,9 @@ impl Task<'_> {
     /// The factors that the forms for all valences have at this one, by frequency.
     fn hints(&self, cosine: &dyn Fn(usize) -> Result<Cosine, Trouble>) -> Result<Vec<Vec<Hint>>, Obstacle> {
         let Some(forms) = self.forms.filter(|forms| forms.holds_at(self.valence)) else { return Ok(vec![]) };
-        let parameters = self.parameter_values(&forms.parameters)?;
-        let parameters: Vec<Cosine> = parameters.iter().map(Cosine::rational).collect();
+        let values: Option<Vec<RBig>> = forms.parameters.iter().map(|name| self.scheme.rational_value(name)).collect();
+        let Some(values) = values else { return Ok(vec![]) };
+        let parameters: Vec<Cosine> = values.iter().map(Cosine::rational).collect();
         let c = cosine(1)?;
         let approx = |k: usize| libm::cos(std::f64::consts::TAU * k as f64 / self.valence as f64);
         let approx_parameters: Vec<f64> =
@@ -306,22 +306,11 @@ impl Task<'_> {
             let hint = |form: &formulas::Form| {
                 let polynomial = formulas::at(&form.polynomial, &values).ok()?;
                 let approx = indeterminates(self.valence, approx(1), approx(k), &approx_parameters);
-                Some(Hint { polynomial, form: form.polynomial.clone(), approx })
+                Some(Hint { polynomial, form: form.polynomial.clone(), approx, parameters: forms.parameters.clone() })
             };
             hints.push(own.iter().filter_map(hint).collect());
         }
         Ok(hints)
-    }
-
-    fn parameter_values(&self, names: &[String]) -> Result<Vec<RBig>, Obstacle> {
-        let book = &self.scheme.book;
-        let value = |name: &String| {
-            let inexact = || Obstacle::Inexact(Fault::whole(format!("`{name}` has no rational value")));
-            let parameter = book.parameters.iter().find(|p| p.name == *name).ok_or_else(inexact)?;
-            let form = book.evaluate(&parameter.value, &Place::<Laurent>::at(None, 0)).map_err(Obstacle::Inexact)?;
-            form.as_constant().ok_or_else(inexact)
-        };
-        names.iter().map(value).collect()
     }
 
     fn run_enclosed(&self) -> Result<ExactAnalysis, Obstacle> {
@@ -418,22 +407,25 @@ pub struct Hint {
     pub form: Univariate<Free>,
     /// The indeterminates' values, approximately.
     pub approx: Vec<f64>,
+    /// The names of the free parameters.
+    pub parameters: Vec<String>,
 }
 
-/// Splits a monic polynomial: by factors known beforehand, by rational roots, into parts without multiple roots.
+/// Splits a monic polynomial: by factors known beforehand (x - 1 among them), by rational roots, into parts without multiple roots.
 fn pieces(polynomial: &Univariate<Cosine>, hints: &[Hint]) -> Result<Vec<(Univariate<Cosine>, usize)>, Trouble> {
+    let one = Univariate::new(vec![Cosine::whole(-1), Cosine::whole(1)]);
     let mut found: Vec<(Univariate<Cosine>, usize)> = Vec::new();
     let mut rest = polynomial.clone();
-    for hint in hints {
+    for known in hints.iter().map(|hint| &hint.polynomial).chain([&one]) {
         let mut times = 0;
-        while rest.degree() >= hint.polynomial.degree() {
-            let (quotient, remainder) = rest.divided(&hint.polynomial)?;
+        while rest.degree() >= known.degree() {
+            let (quotient, remainder) = rest.divided(known)?;
             if remainder.degree().is_some() {
                 break;
             }
             (rest, times) = (quotient, times + 1);
         }
-        for (piece, own) in refined(&hint.polynomial)? {
+        for (piece, own) in refined(known)? {
             if times > 0 {
                 found.push((piece, own * times));
             }

@@ -83,7 +83,7 @@ impl Described for Cosine {
         let distance = |form: &ClosedForm| Some((approx_value(form, &hint.approx)? - root.re.midpoint_f64()).abs());
         let nearest = forms.iter().filter_map(|form| Some((distance(form)?, form)));
         let (_, form) = nearest.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
-        Some(form_at_frequency(form, k))
+        Some(form_at_frequency(form, k, &hint.parameters))
     }
 
     fn extension_in_words(
@@ -114,11 +114,11 @@ fn approx_value(form: &ClosedForm, values: &[f64]) -> Option<f64> {
 }
 
 /// A closed form for all n at a frequency that is a number.
-fn form_at_frequency(form: &ClosedForm, k: usize) -> Words {
+fn form_at_frequency(form: &ClosedForm, k: usize, parameters: &[String]) -> Words {
     let angle = if k == 1 { "2*pi/n".to_string() } else { format!("{}*pi/n", 2 * k) };
     let (text, latex) = (format!("cos({angle})"), if k == 1 { "c".to_string() } else { format!("c_{{{k}}}") });
-    let texts = ["n", "cos(2*pi/n)", &text, "?", "?", "?"];
-    let latexes = ["n", "c", &latex, "?", "?", "?"];
+    let texts = names(&["n", "cos(2*pi/n)", &text], parameters);
+    let latexes = names(&["n", "c", &latex], parameters);
     Words { text: form.text(&texts), latex: form.latex(&latexes) }
 }
 

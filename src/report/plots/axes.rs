@@ -76,7 +76,7 @@ impl Axes {
 }
 
 /// Four to nine round values from `low` to `high`, with their digits.
-fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
+pub(super) fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
     let (mut step, mut decimals) = (1e-6, 6_usize);
     for factor in [2.0, 2.5, 2.0].into_iter().cycle().take(45) {
         if (high - low) / step <= 8.0 {

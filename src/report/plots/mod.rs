@@ -16,8 +16,10 @@ mod masks;
 mod png;
 mod prettify;
 mod stencils;
+mod sweep;
 
 pub use png::png;
+pub use sweep::picture as sweep_picture;
 
 use crate::analysis::{Analysis, Analyzer, MapPicture};
 use crate::refine::Obstacle;
