@@ -9,6 +9,7 @@ pub mod curvature;
 pub mod formulas;
 pub mod jordan;
 pub mod masks;
+pub mod ranges;
 pub mod rows;
 pub mod spectrum;
 pub mod words;
@@ -260,9 +261,9 @@ impl Task<'_> {
 
     /// The factors that the forms for all valences have at this one, by frequency.
     fn hints(&self, cosine: &dyn Fn(usize) -> Result<Cosine, Trouble>) -> Result<Vec<Vec<Hint>>, Obstacle> {
-        let Some(forms) = self.forms.filter(|forms| forms.holds_at(self.valence)) else { return Ok(vec![]) };
+        let Some(forms) = self.forms.filter(|forms| forms.holds_at(self.valence)) else { return Ok(one_alone()) };
         let values: Option<Vec<RBig>> = forms.parameters.iter().map(|name| self.scheme.rational_value(name)).collect();
-        let Some(values) = values else { return Ok(vec![]) };
+        let Some(values) = values else { return Ok(one_alone()) };
         let parameters: Vec<Cosine> = values.iter().map(Cosine::rational).collect();
         let c = cosine(1)?;
         let mut hints = Vec::new();
@@ -360,6 +361,13 @@ pub struct Hint {
     pub form: Univariate<Free>,
     /// The names of the free parameters.
     pub parameters: Vec<String>,
+}
+
+/// The factor of the constants, in frequency 0.
+fn one_alone() -> Vec<Vec<Hint>> {
+    let polynomial = Univariate::new(vec![Cosine::whole(-1), Cosine::whole(1)]);
+    let form = Univariate::new(vec![Free::whole(-1), Free::whole(1)]);
+    vec![vec![Hint { polynomial, form, parameters: vec![] }]]
 }
 
 /// Splits a monic polynomial: by factors known beforehand, by rational roots, into parts without multiple roots.
