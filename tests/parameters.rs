@@ -212,6 +212,19 @@ fn ranges_agree_with_sweeps() {
     }
 }
 
+/// An end that is a multiple of a single cosine, and one at which a modulus that doesn't matter ties.
+#[test]
+fn ends_may_be_single_cosines() {
+    let scheme = loop_like("w = \"1/8\"", "5/8 - n*w", "3/(8*n) + w", "3/8", "1/8");
+    let found = ranges(&scheme, &[5], &Interval::parse("w=-1/4..1/4").unwrap(), &|| ()).unwrap();
+    // |1/4 - 5 w| < 3/8 + cos(2 pi/5)/4
+    let lambda = "-1/40 - cos(2*pi/5)/20 = -0.0404508497, 1/8 + cos(2*pi/5)/20 = 0.1404508497";
+    assert_eq!(of(&found, 5, "subdominant"), format!("({lambda})"));
+    let shifted = loop_like("w = \"1/8\"", "5/8 - n*(w - 1/40)", "3/(8*n) + w - 1/40", "3/8", "1/8");
+    let found = ranges(&shifted, &[5], &Interval::parse("w=-1/4..1/10").unwrap(), &|| ()).unwrap();
+    assert_eq!(of(&found, 5, "subdominant"), "(-cos(2*pi/5)/20 = -0.0154508497, 1/10]");
+}
+
 /// A square of the parameter in a weight: an end that is a square root.
 #[test]
 fn ends_may_be_square_roots() {

@@ -11,7 +11,7 @@ use crate::analysis::neighbourhood::Orbit;
 use crate::analysis::spectra::Spectra;
 use crate::numbers::{Angle, EnclosedParameter, Univariate, World};
 use crate::refine::{Obstacle, lattice_of};
-use crate::scheme::Scheme;
+use crate::scheme::{Place, Scheme};
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
 
@@ -72,8 +72,20 @@ impl Decider<'_> {
         if !enclosed.contains(&None) || candidate.polynomial.degree() > Some(2) {
             return enclosed;
         }
+        // a formula that does not say the value would decide about another one
+        if !self.says(&text, &candidate.value) {
+            return enclosed;
+        }
         let written = self.at_words(&text);
         [0, 1, 2].map(|which| enclosed[which].or(written[which]))
+    }
+
+    /// Whether a formula has this value, as far as floating numbers tell.
+    fn says(&self, text: &str, value: &Value) -> bool {
+        let Ok(scheme) = self.scheme.with_value(self.name, text) else { return false };
+        let Ok(parameter) = scheme.parameter(self.name) else { return false };
+        let found = scheme.book.evaluate(&parameter.value, &Place::<f64>::at(None, 0));
+        found.is_ok_and(|found| (found - value.midpoint_f64()).abs() < 1e-9)
     }
 
     /// By the exact analysis, the value being a formula.
@@ -121,11 +133,14 @@ fn decided(analysis: &ExactAnalysis) -> Decided {
         let not = if exact && analysis.one.is_some() { Some(false) } else { None };
         return [one, not, not];
     };
-    let subdominant = all(analysis.after_subdominant().map(|(index, _)| larger(lambda, index)));
-    let at_most = |(index, _)| {
-        let order: Option<Ordering> = analysis.against_square.get(index).copied().flatten();
+    // a second 1 of frequency 0 is one of the others
+    let second = analysis.one.filter(|one| analysis.eigenvalues[*one].algebraic != Some(1));
+    let others: Vec<usize> = analysis.after_subdominant().map(|(index, _)| index).chain(second).collect();
+    let subdominant = all(others.iter().map(|index| larger(lambda, *index)));
+    let at_most = |index: &usize| {
+        let order: Option<Ordering> = analysis.against_square.get(*index).copied().flatten();
         order.map(|order| order != Ordering::Greater)
     };
-    let bounded = all(analysis.after_subdominant().map(at_most).chain([subdominant]));
+    let bounded = all(others.iter().map(at_most).chain([subdominant]));
     [one, subdominant, bounded]
 }
