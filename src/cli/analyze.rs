@@ -5,9 +5,10 @@ use super::valences::Valences;
 use super::{Failure, failure, print};
 use clap::{Args, ValueEnum};
 use eigenring::refine::Obstacle;
+use eigenring::report::ranges;
 use eigenring::report::sweep::{self, Sweep, SweepRequest};
 use eigenring::report::{self, NoReport, Picture, Report, Study};
-use eigenring::scheme::Scheme;
+use eigenring::scheme::{Interval, Scheme};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -36,6 +37,9 @@ pub(crate) struct Analyze {
     /// Tabulate and plot lambda, mu and their ratio against a parameter: w=0..1/8, or with a number of steps w=0..1/8:32
     #[arg(long, value_name = "NAME=LOW..HIGH", value_parser = SweepRequest::parse)]
     sweep: Option<SweepRequest>,
+    /// Find the values of a parameter for which spectral conditions hold, exactly: w=0..1/4
+    #[arg(long, value_name = "NAME=LOW..HIGH", value_parser = Interval::parse)]
+    range: Option<Interval>,
     /// The folder that the report is written into [default: reports/SCHEME]
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -72,12 +76,19 @@ impl Analyze {
         if let Some(request) = &self.sweep {
             add_sweep(&mut study, &scheme, &self.valence.0, request, draw)?;
         }
+        if let Some(interval) = &self.range {
+            let bar = progress_bar(&self.valence.0);
+            let found = ranges::ranges(&scheme, &self.valence.0, interval, &|| bar.inc(1));
+            bar.finish_and_clear();
+            study.report.ranges = found.map_err(failure)?;
+        }
         match self.format {
             Some(format) => print(&one_form(&study.report, format)?),
             None => {
                 let folder = self.out.unwrap_or_else(|| Path::new("reports").join(&scheme.id));
                 let written = write(&study, &folder)?;
                 let sweep = study.report.sweep.as_ref().map_or(String::new(), sweep::terminal);
+                let sweep = ranges::terminal(&study.report.ranges) + &sweep;
                 print(&format!("{}{sweep}\n{}", report::terminal(&study.report), files_line(&folder, &written)))
             }
         }

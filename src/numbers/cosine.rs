@@ -229,7 +229,7 @@ impl Cosine {
     /// with a third term in cos(4 pi p/N), is written so; others in the basis p = 0..degree-1.
     pub fn as_cosines(&self) -> (u64, Vec<(usize, RBig)>) {
         let basis = self.in_basis();
-        let Some(field) = self.field.as_ref().filter(|_| basis.len() > 1) else { return (1, basis) };
+        let Some(field) = self.field.as_ref().filter(|_| self.coefficients.len() > 1) else { return (1, basis) };
         let order = field.order as usize;
         let short = (1..=order / 2).find_map(|p| self.as_wave(field, p)).or_else(|| {
             let pairs = basis.len() > 3;

@@ -10,6 +10,7 @@ mod latex;
 mod markdown;
 pub mod model;
 pub mod plots;
+pub mod ranges;
 mod study;
 pub mod sweep;
 mod tables;

@@ -4,6 +4,7 @@
 //! (`"format": 1`). Lists are in a fixed order and floats print shortest: the same input gives the same bytes.
 
 use super::formulas::{AllValencesReport, all_valences};
+use super::ranges::RangeReport;
 use super::sweep::Sweep;
 use crate::analysis::exact::words::Words;
 use crate::analysis::exact::{Arithmetic, ExactAnalysis, ExactEigenvalue, ExactWeight, Value};
@@ -50,6 +51,9 @@ pub struct Report {
     /// The leading eigenvalues against a parameter, where that is asked for.
     #[serde(skip)]
     pub sweep: Option<Sweep>,
+    /// Where conditions hold as a parameter changes, where that is asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ranges: Vec<RangeReport>,
 }
 
 /// How schemes are classified.
@@ -363,6 +367,7 @@ impl Report {
             valences,
             claims,
             sweep: None,
+            ranges: vec![],
         })
     }
 }

@@ -105,6 +105,7 @@ pub fn tables(report: &Report) -> Vec<Table> {
         tangent_masks(report),
         conditions(report),
     ]);
+    tables.extend(super::ranges::table(&report.ranges));
     tables.extend(report.sweep.as_ref().map(super::sweep::table));
     if !report.claims.is_empty() {
         tables.push(claims(report));

@@ -90,3 +90,20 @@ impl Scheme {
         scheme
     }
 }
+
+impl super::RuleBook {
+    /// Whether a condition of a case depends on a parameter, perhaps through names.
+    pub(crate) fn conditions_depend_on(&self, parameter: &str) -> bool {
+        let mut dependent = vec![parameter.to_string()];
+        for _ in 0..self.lets.len() {
+            for named in self.lets.iter().filter(|named| !dependent.contains(&named.name)).collect::<Vec<_>>() {
+                let formulas = named.value.values().into_iter().flat_map(|placed| placed.formula.names());
+                let conditions = named.value.conditions().into_iter().flat_map(|(condition, _)| condition.names());
+                if formulas.chain(conditions).any(|(name, _)| dependent.iter().any(|own| own == name)) {
+                    dependent.push(named.name.clone());
+                }
+            }
+        }
+        self.condition_names().iter().any(|name| dependent.contains(name))
+    }
+}

@@ -9,6 +9,7 @@ pub mod curvature;
 pub mod formulas;
 pub mod jordan;
 pub mod masks;
+pub mod ranges;
 pub mod rows;
 pub mod spectrum;
 pub mod words;
