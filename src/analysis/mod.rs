@@ -286,11 +286,19 @@ pub struct MapPicture {
 fn one_then_halves(regular: &ExactAnalysis) -> Option<bool> {
     let (one, next) = (regular.one?, regular.after_one().next()?.0);
     let dominates = regular.compare_moduli(one, next)? == Ordering::Greater;
-    let Some(lambda) = regular.lambda else { return Some(false) };
-    let rival = regular.after_subdominant().next().map(|(index, _)| regular.compare_moduli(lambda, index));
+    let lambda = &regular.eigenvalues[regular.lambda?];
+    let rival = regular.after_subdominant().next().map(|(index, _)| regular.compare_moduli(regular.lambda?, index));
     let leads = rival.is_none_or(|order| order == Some(Ordering::Greater));
-    let half = regular.eigenvalues[lambda].exact.as_ref().map(|words| words.text == "1/2")?;
-    Some(dominates && leads && half)
+    let half = dashu_ratio::RBig::from(1) / dashu_ratio::RBig::from(2);
+    let (low, high) = lambda.re.lo_hi();
+    if low > half || high < half {
+        return Some(false);
+    }
+    let exactly = low == high || lambda.exact.as_ref().is_some_and(|words| words.text == "1/2");
+    match rival {
+        Some(None) => None,
+        _ => exactly.then_some(dominates && leads),
+    }
 }
 
 /// The orbits of the smallest invariant neighbourhood: the centre's ring and whatever it is made of.

@@ -18,7 +18,10 @@ use std::rc::Rc;
 /// The largest degree of a field: beyond it exact arithmetic is given up for enclosures.
 pub const MAX_DEGREE: usize = 24;
 
-const MAX_BITS: usize = 16_384;
+/// Larger N have a larger degree in any case.
+const MAX_ORDER: u64 = 8 * (MAX_DEGREE * MAX_DEGREE) as u64;
+
+const MAX_BITS: usize = 4096;
 
 const TOO_LARGE: Trouble = Trouble::BeyondThisWorld("the exact value is too large to hold");
 
@@ -36,7 +39,8 @@ impl CosineField {
     /// The field of the N-th parts of a turn; `None` where its degree passes [`MAX_DEGREE`].
     pub fn new(order: u64) -> Option<Rc<CosineField>> {
         let order = order.max(1);
-        if degree(order) > MAX_DEGREE as u64 {
+        // phi(N) is at least the root of N/2
+        if order > MAX_ORDER || degree(order) > MAX_DEGREE as u64 {
             return None;
         }
         let modulus = minimal_polynomial(order);

@@ -2,7 +2,7 @@
 //!
 //! By Gauss's lemma they are those over the ring of polynomials with whole coefficients. Whole numbers for the
 //! indeterminates, so large that the coefficients of any factor are their digits, leave a polynomial in one unknown with
-//! whole coefficients; its factors come from [`crate::numbers::hensel`], and those that are real are told by exact division. The
+//! whole coefficients; its factors come from `numbers::hensel`, and those that are real are told by exact division. The
 //! digits are long enough by Gelfond's bound (1960) of the height of a factor, so that none is missed.
 
 use crate::numbers::Trouble;

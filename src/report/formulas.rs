@@ -103,8 +103,7 @@ pub struct TangentFormula {
 
 /// The report of the forms of a scheme.
 pub(super) fn all_valences(all: &AllValences, scheme: &Scheme, names: &OrbitNames) -> AllValencesReport {
-    let subdominant =
-        all.subdominant.as_ref().and_then(|factor| factor_in_words(factor, &all.parameters).into_iter().next());
+    let subdominant = all.subdominant_in_words();
     AllValencesReport {
         from: all.from,
         except: all.except,
@@ -137,18 +136,15 @@ fn eigenvalues(form: &Form, all: &AllValences) -> Vec<EigenvalueFormula> {
 }
 
 fn identities(all: &AllValences) -> Vec<Identity> {
-    let names = ["cup ratio", "saddle ratio"];
-    let state = |(claim, of): (&'static str, usize)| {
+    let state = |(claim, of, k, least): (&'static str, usize, usize, usize)| {
         let holds = all.is_square_of_subdominant(all.classical[of].as_ref()?)?;
         let value = factor_in_words(all.classical[of].as_ref()?, &all.parameters).into_iter().next()?;
-        let equal = if holds {
-            "is lambda^2 for every n: the ratio is exactly 1"
-        } else {
-            "is not lambda^2, as a function of n"
-        };
-        Some(Identity { claim, states: format!("{} {equal}", value.text), holds })
+        let equal = if holds { "is lambda^2" } else { "is not lambda^2, as a function of n," };
+        let states = format!("{}, the largest of frequency {k}, {equal} for every n >= {}", value.text, all.from.max(least));
+        let states = if holds { format!("{states}: the ratio is exactly 1") } else { states };
+        Some(Identity { claim, states, holds })
     };
-    names.into_iter().zip(0..2).filter_map(state).collect()
+    [("cup ratio", 0, 0, 3), ("saddle ratio", 1, 2, 5)].into_iter().filter_map(state).collect()
 }
 
 fn limit_mask(all: &AllValences, names: &OrbitNames) -> Option<Vec<WeightFormula>> {

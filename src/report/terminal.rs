@@ -80,7 +80,7 @@ fn formulas(report: &Report) -> String {
     let mut text = String::new();
     if let Some(lambda) = &all.subdominant {
         let except = all.except.map_or(String::new(), |n| format!(" but {n}"));
-        let _ = writeln!(text, "Largest of frequency 1, for every n >= {}{except}: {}", all.from, lambda.formula);
+        let _ = writeln!(text, "Frequency 1 for every n >= {}{except}, its largest at all n tried: {}", all.from, lambda.formula);
     }
     for identity in all.identities.iter().filter(|identity| identity.holds) {
         let _ = writeln!(text, "{}: {}", identity.claim, identity.states);

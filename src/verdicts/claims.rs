@@ -5,6 +5,7 @@ use crate::analysis::Analysis;
 use crate::analysis::exact::Value;
 use crate::analysis::spectrum::{Eigenvalue, NEAR};
 use crate::fault::Fault;
+use dashu_ratio::RBig;
 use crate::scheme::{Claim, Place, Quantity, Scheme};
 use serde::{Deserialize, Serialize};
 
@@ -86,7 +87,7 @@ fn check(
                 let enclosed =
                     scheme.book.evaluate(equals, &Place::<Value>::at(Some("n"), analysis.valence as i64)).ok();
                 let own = exactly_found(analysis, &claim.quantity, orbit_of);
-                let meets = own.zip(enclosed).map(|(own, claimed)| own.overlaps(&claimed));
+                let meets = own.zip(enclosed).and_then(|(own, claimed)| meets(&own, &claimed));
                 let found = found(analysis, &claim.quantity, orbit_of);
                 pairs.push(Pair { valence: analysis.valence, found, claimed, meets });
             }
@@ -102,6 +103,15 @@ fn check(
         outcome,
         seen,
     })
+}
+
+/// Whether two enclosures have a number in common; `None` where they do but are too wide to say how near the numbers are.
+fn meets(a: &Value, b: &Value) -> Option<bool> {
+    if !a.overlaps(b) {
+        return Some(false);
+    }
+    let narrow = RBig::ONE / RBig::from(10).pow(MAX_AGREEING as isize + 1);
+    (a.width() < narrow && b.width() < narrow).then_some(true)
 }
 
 /// A value beside the one that is claimed.

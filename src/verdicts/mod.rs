@@ -195,6 +195,9 @@ fn simple_one(analysis: &Analysis) -> Verdict {
     let (Some(one), Some((next, e))) = (exact.one, exact.after_one().next()) else { return verdict };
     let simple = exact.eigenvalues[one].algebraic == Some(1);
     let why = format!("the next is {}", named(e));
+    if exact.eigenvalues[one].algebraic.is_some_and(|times| times > 1) && exact.arithmetic == Arithmetic::Exact {
+        return verdict.by(false, exact, "1 is not simple");
+    }
     match exact.compare_moduli(one, next) {
         Some(order) if simple || order != Ordering::Greater => verdict.by(order == Ordering::Greater, exact, why),
         _ => verdict,
@@ -528,7 +531,10 @@ pub fn curvature_of(analysis: &Analysis) -> Option<Curvature> {
 }
 
 fn exact_curvature(exact: &ExactAnalysis) -> Option<CurvatureClass> {
-    let (first, _) = exact.after_subdominant().next()?;
+    let (first, e) = exact.after_subdominant().next()?;
+    if !exact.certain[e.level] {
+        return None;
+    }
     match exact.against_square.get(first).copied().flatten()? {
         Ordering::Less => Some(CurvatureClass::Flat),
         Ordering::Greater => Some(CurvatureClass::Diverges),

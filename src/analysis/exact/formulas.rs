@@ -230,6 +230,17 @@ impl AllValences {
         indeterminates(n, libm::cos(turn), libm::cos(2.0 * turn), &self.approx_values)
     }
 
+    /// The subdominant form, where it is one closed form.
+    pub fn subdominant_in_words(&self) -> Option<Words> {
+        match ClosedForm::of(self.subdominant.as_ref()?)?.as_slice() {
+            [form] => Some(form_in_words(form, &self.parameters)),
+            [plus @ ClosedForm::Root { scale, .. }, _] if self.is_positive(scale) => {
+                Some(form_in_words(plus, &self.parameters))
+            }
+            _ => None,
+        }
+    }
+
     /// Whether a function of n is positive at all samples.
     fn is_positive(&self, value: &Free) -> bool {
         let at = |n: &usize| value.evaluate(&self.sample_values(*n));

@@ -233,7 +233,8 @@ impl Task<'_> {
         let n = self.valence;
         let twice = |e: &&Eigenvalue| if e.frequency == 0 || 2 * e.frequency == n { 1 } else { 2 };
         let count: usize = tied.iter().map(|e| twice(e) * e.algebraic.unwrap_or(0)).sum();
-        if n == self.lattice.regular_valence() && count == 3 {
+        let half = Univariate::new(vec![F::whole(-1).over(&F::whole(2))?, F::whole(1)]);
+        if n == self.lattice.regular_valence() && count == 3 && *spectrum.polynomial(lambda) == half {
             let Some(world) = AtValence::new(n as u64) else { return Ok(None) };
             if curvature::generates_quadratics(&self.refinement(&world), self.lattice)? {
                 return Ok(Some(true));
@@ -382,7 +383,7 @@ impl Task<'_> {
                 (0..analysis.eigenvalues.len()).filter(|e| tie(&analysis.against_square[*e])).collect();
             if F::EXACT && bounded_at_one(&analysis, &tied) {
                 let tied: Vec<&Eigenvalue> = tied.iter().map(|index| &spectrum.eigenvalues[*index]).collect();
-                analysis.converges = self.converges(&rows, &spectrum, e, &tied, embedding)?;
+                analysis.converges = self.converges(&rows, &spectrum, e, &tied, embedding).unwrap_or(None);
             }
         }
         Ok(analysis)
@@ -392,8 +393,8 @@ impl Task<'_> {
 /// Whether |mu| = lambda^2 exactly, and no eigenvalue of that modulus has a Jordan block.
 fn bounded_at_one(analysis: &ExactAnalysis, tied: &[usize]) -> bool {
     let plain = |index: &usize| analysis.eigenvalues[*index].structure.is_some_and(|structure| structure.largest == 1);
-    let first = analysis.after_subdominant().next().map(|(index, _)| index);
-    first.is_some_and(|first| tied.contains(&first)) && tied.iter().all(plain)
+    let first = analysis.after_subdominant().next();
+    first.is_some_and(|(index, e)| tied.contains(&index) && analysis.certain[e.level]) && tied.iter().all(plain)
 }
 
 const NO_ONE: &str = "1 is not known to be an eigenvalue: the weights don't sum to 1 exactly, or 1 is not simple";

@@ -11,6 +11,7 @@ use crate::numbers::linear::part;
 use crate::numbers::real_root::{Embedding, RealRoot, roots_of};
 use crate::numbers::roots::Root;
 use crate::numbers::{Field, Trouble, Univariate};
+use dashu_ratio::RBig;
 use std::cmp::Ordering;
 
 /// A polynomial with eigenvalues as roots; no other factor shares a root with it, where arithmetic is exact.
@@ -131,33 +132,30 @@ impl<F: Field, const BITS: usize> Spectrum<F, BITS> {
             a.value.compare(&b.value).map_or(narrow, Ordering::reverse)
         };
         moduli.sort_by(|(a, e), (b, f)| by_value(a, b).then(e.frequency.cmp(&f.frequency)));
+        let tops = suffix_maxima(moduli.iter().map(|(modulus, _)| modulus.value.lo_hi().1).collect());
         let mut level = 0;
         let mut certain = vec![true];
+        let mut least = moduli.first().map(|(modulus, _)| modulus.value.lo_hi().0);
         for index in 1..moduli.len() {
             let ((a, e), (b, f)) = (&moduli[index - 1], &moduli[index]);
-            let known = is_certain(&self.factors[e.factor].polynomial);
-            let same = known && (e.factor, e.root) == (f.factor, f.root) || self.are_conjugate(e, f);
-            let order = if same { Some(Ordering::Equal) } else { a.compare(b, embedding)? };
-            match order {
-                Some(Ordering::Equal) => {}
-                Some(_) if certain[level] || self.parts_from_level(&moduli, index, level) => {
-                    level += 1;
-                    certain.push(true);
-                }
-                _ => certain[level] = false,
+            let bottom = b.value.lo_hi().0;
+            if least.as_ref().is_some_and(|least| tops[index] < *least) {
+                // everything from here on is smaller than everything before
+                level += 1;
+                certain.push(true);
+            } else {
+                let known = is_certain(&self.factors[e.factor].polynomial);
+                let same = known && (e.factor, e.root) == (f.factor, f.root) || self.are_conjugate(e, f);
+                let equal = same || a.compare(b, embedding)? == Some(Ordering::Equal);
+                certain[level] &= equal;
             }
+            least = least.map(|least| least.min(bottom));
             moduli[index].1.level = level;
         }
         self.eigenvalues = moduli.into_iter().map(|(_, e)| e).collect();
         self.eigenvalues.sort_by_key(|e| (e.level, e.frequency));
         self.certain = certain;
         Ok(self)
-    }
-
-    /// Whether a modulus is certainly smaller than all of a level whose order is not known.
-    fn parts_from_level(&self, moduli: &[(RealRoot<F, BITS>, Eigenvalue)], index: usize, level: usize) -> bool {
-        let members = moduli[..index].iter().rev().take_while(|(_, e)| e.level == level);
-        members.into_iter().all(|(own, _)| moduli[index].0.value.compare(&own.value) == Some(Ordering::Less))
     }
 
     fn are_conjugate(&self, e: &Eigenvalue, f: &Eigenvalue) -> bool {
@@ -271,6 +269,16 @@ fn add(found: &mut Vec<Eigenvalue>, frequency: usize, (factor, root): (usize, us
             level: 0,
         }),
     }
+}
+
+/// For each place the largest from there on.
+fn suffix_maxima(mut values: Vec<RBig>) -> Vec<RBig> {
+    for index in (1..values.len()).rev() {
+        if values[index] > values[index - 1] {
+            values[index - 1] = values[index].clone();
+        }
+    }
+    values
 }
 
 /// Whether the coefficients are numbers, and no intervals: then equal polynomials have equal roots.

@@ -1,7 +1,7 @@
 //! For which values of a parameter does a spectral condition hold, at one valence?
 //!
 //! With the parameter left free the eigenvalues are algebraic functions of it. A condition that compares moduli changes only where
-//! two of them tie, or a weight has a pole: at finitely many algebraic numbers ([`candidates`]), the zeros of resultants. Between
+//! two of them tie, or a weight has a pole: at finitely many algebraic numbers (`candidates`), the zeros of resultants. Between
 //! neighbouring ones every condition is constant and is decided at one rational number; at the candidates themselves it is decided where
 //! exact or enclosed numbers tell, and counts as open where they don't. So an interval is never wrong; more candidates than needed do
 //! no harm.
