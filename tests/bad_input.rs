@@ -504,7 +504,7 @@ fn wrong_arguments() {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("there.toml"), SOUND).unwrap();
     let many = (3..1100).map(|n| n.to_string()).collect::<Vec<_>>().join(",");
-    let cases: [(&[&str], &[&str]); 31] = [
+    let cases: [(&[&str], &[&str]); 37] = [
         (&["analyze", "loop", "-n", "0"], &["at least 3", "0"]),
         (&["analyze", "loop", "-n", "1"], &["at least 3"]),
         (&["analyze", "loop", "-n", "1000000000"], &["at most 100000"]),
