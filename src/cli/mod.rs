@@ -36,7 +36,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Analyse a scheme and write its report
-    Analyze(analyze::Analyze),
+    Analyze(Box<analyze::Analyze>),
     /// List the schemes of the catalogue, or print the file of one
     Schemes(catalogue::Schemes),
     /// Start a scheme file of your own

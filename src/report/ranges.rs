@@ -9,6 +9,9 @@ use std::fmt::Write;
 /// The decimals of ends that are not rational.
 const DIGITS: usize = 10;
 
+/// Ends whose exact form is longer than this are told by their decimals, but in JSON.
+const LONGEST: usize = 90;
+
 /// Where a condition holds at a valence.
 #[derive(Clone, Debug, Serialize)]
 pub struct RangeReport {
@@ -104,6 +107,7 @@ fn interval_report(range: &Range) -> IntervalReport {
 fn words(range: &Range) -> String {
     let written = |end: &End| match end.rational {
         Some(_) => end.exact.text.clone(),
+        None if end.exact.text.len() > LONGEST => format!("{} (rounded)", end.decimal(DIGITS)),
         None => format!("{} = {}", end.exact.text, end.decimal(DIGITS)),
     };
     if range.from.exact == range.to.exact {
@@ -142,7 +146,8 @@ pub(super) fn table(ranges: &[RangeReport]) -> Option<Table> {
     let note = format!(
         "Values of {} from {} to {} for which a condition holds; exact: [ and ] belong to a range, ( and ) do not. '1 dominates': \
          1 is simple and all others are smaller in modulus. 'subdominant': the largest after 1, λ, is real, positive, of \
-         frequency 1, simple there and larger in modulus than all others. '|μ| ≤ λ²': the same, and no other modulus is above λ².",
+         frequency 1, simple there and larger in modulus than all others. '|μ| ≤ λ²': the same, and no other modulus is above λ². The exact form of \
+         an end that is marked (rounded) is in the JSON.",
         first.parameter, first.within[0], first.within[1]
     );
     let row = |range: &RangeReport| -> Vec<Cell> {
