@@ -14,6 +14,7 @@ Exit status: 0 all agree, 1 something doesn't, 2 the check could not be made.
 
 import copy
 import json
+import math
 import re
 import subprocess
 import sys
@@ -54,12 +55,12 @@ def require(holds, message):
 
 
 class Field:
-    """Q(2 cos(2 pi/n))."""
+    """Q(2 cos(2 pi/order)); the order is n or a multiple of it, for schemes whose weights need more."""
 
-    def __init__(self, n):
-        self.n = n
-        self.modulus = fmpq_poly(list(fmpz_poly.cos_minpoly(n)))
-        self.c = 2 * (2 * arb.pi() / n).cos()
+    def __init__(self, n, order=None):
+        self.n, self.order = n, order or n
+        self.modulus = fmpq_poly(list(fmpz_poly.cos_minpoly(self.order)))
+        self.c = 2 * (2 * arb.pi() / self.order).cos()
         self.zero, self.one = self.rational(0), self.rational(1)
 
     def rational(self, q):
@@ -68,9 +69,9 @@ class Field:
     def cos(self, turn):
         """cos(2 pi turn) for a fraction of a turn; None if it isn't seen to lie in the field."""
         for shift, sign in ((Fraction(0), 1), (Fraction(1, 2), -1)):
-            steps = (turn + shift) * self.n
+            steps = (turn + shift) * self.order
             if steps.denominator == 1:
-                return self.chebyshev(int(steps) % self.n) * fmpq(sign, 2)
+                return self.chebyshev(int(steps) % self.order) * fmpq(sign, 2)
         special = {0: fmpq(1), 1: fmpq(1, 2), 2: fmpq(-1, 2), 3: fmpq(-1)}
         sixth, quarter = turn % 1 * 6, turn % 1 * 4
         if sixth.denominator == 1:
@@ -78,7 +79,7 @@ class Field:
         return self.zero if quarter.denominator == 1 else None
 
     def chebyshev(self, m):
-        """2 cos(2 pi m/n)."""
+        """2 cos(2 pi m/order)."""
         before, now = self.rational(2), Num(self, fmpq_poly([0, 1]) % self.modulus)
         if m == 0:
             return before
@@ -257,7 +258,7 @@ def evaluate(text, field, n=None, k=None):
             take(")")
             value = field.cos(turns_of_pi / 2)
             if value is None:
-                raise Unable(f"{text!r} has a cosine outside Q(cos(2 pi/{field.n}))")
+                raise Unable(f"{text!r} has a cosine outside Q(cos(2 pi/{field.order}))")
         elif token == "sqrt":
             take("(")
             value = total(number).sqrt()
@@ -434,6 +435,7 @@ class Scheme:
     """A scheme's rules at one n. `rows` gives every vertex of a mesh as a sparse combination of the first mesh's."""
 
     kind = "triangles"
+    beyond = 1                        # weights lie in Q(cos(2 pi/lcm(n, beyond)))
 
     def __init__(self, field):
         self.field, self.n = field, field.n
@@ -548,10 +550,7 @@ class CatmullClark(Scheme):
             new[name] = combine([(quarter, rows[a]), (quarter, rows[b]), (quarter, f), (quarter, g)])
         for v, fan in mesh.fans.items():
             if fan:
-                m = len(fan)
-                share = self.q(1, m * m)                     # of the mean of m points, divided by m
-                parts = [(self.q(m - 2, m), rows[v])] + [(share, rows[u]) for u in fan]
-                new["v", v] = combine(parts + [(share, new["f", mesh.face_of[v, u]]) for u in fan])
+                new["v", v] = self.vertex(mesh, rows, new, v, fan)
         faces = []
         for number, face in enumerate(mesh.faces):
             for i, v in enumerate(face):
@@ -561,6 +560,13 @@ class CatmullClark(Scheme):
                 if all(x in new for x in quad):
                     faces.append(quad)
         return Mesh(faces), new
+
+
+    def vertex(self, mesh, rows, new, v, fan):
+        m = len(fan)
+        share = self.q(1, m * m)                             # of the mean of m points, divided by m
+        parts = [(self.q(m - 2, m), rows[v])] + [(share, rows[u]) for u in fan]
+        return combine(parts + [(share, new["f", mesh.face_of[v, u]]) for u in fan])
 
 
 class Dual(Scheme):
@@ -603,6 +609,31 @@ class Biquadratic(Dual):
         return self.q(1, 8) + mean if j in (1, m - 1) else mean
 
 
+class LoopSqrt2(Loop):
+    """A scheme of this check, schemes/loop-sqrt2.toml: 1 and eigenvalues outside Q(cos(2 pi/n)), a bare multiple of one cosine."""
+
+    beyond = 8
+
+    def beta(self):
+        return 2 * self.field.cos(Fraction(1, 8)) / (3 * self.n)
+
+    def vertex(self, rows, v, fan):
+        m = len(fan)
+        beta = 2 * self.field.cos(Fraction(1, 8)) / (3 * m)
+        return combine([(self.q(1) - m * beta, rows[v])] + [(beta, rows[u]) for u in fan])
+
+
+class CatmullClarkSqrt2(CatmullClark):
+    """A scheme of this check, schemes/catmull-clark-sqrt2.toml: 1 is a root of a cubic polynomial over Q(sqrt 2)."""
+
+    beyond = 8
+
+    def vertex(self, mesh, rows, new, v, fan):
+        share = self.field.cos(Fraction(1, 8)) / (4 * len(fan))
+        around = fan + [mesh.after[v, u] for u in fan]
+        return combine([(self.q(1) - 2 * len(fan) * share, rows[v])] + [(share, rows[u]) for u in around])
+
+
 SCHEMES = {
     "loop": Loop,
     "loop-warren": LoopWarren,
@@ -611,6 +642,19 @@ SCHEMES = {
     "catmull-clark-biquadratic": Biquadratic,
     "modified-butterfly": Butterfly,
 }
+OWN_SCHEMES = {"loop-sqrt2": LoopSqrt2, "catmull-clark-sqrt2": CatmullClarkSqrt2}
+
+
+def scheme_of(name, n):
+    kind = {**SCHEMES, **OWN_SCHEMES}[name]
+    return kind(Field(n, math.lcm(n, kind.beyond)))
+
+
+def file_of(name):
+    """What the program is told: a name of its catalogue, or a file beside this one."""
+    return name if name in SCHEMES else str(Path(__file__).resolve().parent / "schemes" / f"{name}.toml")
+
+
 PATCHES = {"triangles": (triangle_patch, 5), "quads": (quad_patch, 4), "dual": (dual_patch, 4)}
 
 
@@ -813,8 +857,8 @@ class Oracle:
 
     def __init__(self, name, n, orbits):
         self.name, self.n = name, n
-        self.field = Field(n)
-        self.scheme = SCHEMES[name](self.field)
+        self.scheme = scheme_of(name, n)
+        self.field = self.scheme.field
         self.local = Local(self.scheme, orbits)
         self.blocks = {k: self.local.block(k) for k in range(n // 2 + 1)}
         self.known = {}
@@ -1097,6 +1141,7 @@ class Oracle:
         for _, modulus, _ in rest:
             largest = modulus if bool(modulus > largest) else largest
         here = [(k, v) for k, modulus, v in rest if near(modulus, largest)]
+        self.check_verdicts(report, value, largest, where)
         mu = evaluate(told["exact"], self.field)
         require(near(mu.enclosure(), largest), f"{where}: subsubdominant {told['exact']} is not {largest.str(20, radius=False)}")
         require(told["frequencies"] == sorted({k for k, _ in here}), f"{where}: subsubdominant in frequencies {told['frequencies']}")
@@ -1111,6 +1156,15 @@ class Oracle:
                 check_float(part["ratio"], exact / value.enclosure() ** 2, f"{where}, {which} ratio", units=256)
                 k = 0 if which == "cup" else 2
                 require(any(near(v.enclosure(), exact) for v, _ in values[k]), f"{where}: {which} is no eigenvalue of frequency {k}")
+
+    def check_verdicts(self, report, value, largest, where):
+        """Two conditions that exact eigenvalues decide: 1 dominates, and so does lambda, a simple pair of frequency 1, after it."""
+        verdicts = {v["claim"]: v["verdict"] for v in report["verdicts"]}
+        modulus = value.enclosure()
+        pair_dominates = self.of(1, value)[0] == 2 and bool(modulus > largest)
+        for claim, holds in (("1 dominates", bool(abs(modulus) < 1)), ("subdominant", pair_dominates and bool(modulus > 0))):
+            want = "proved" if holds else "refuted"
+            require(verdicts.get(claim) == want, f"{where}: the condition '{claim}' is {verdicts.get(claim)}, here {want}")
 
     def check_matrix(self, printed):
         where = f"{self.name}, n = {self.n}, matrix"
@@ -1137,7 +1191,7 @@ def excepted(everywhere):
 
 def influence(name, n, levels=3):
     """The orbits of points that the points of the refined meshes over the faces around the centre are made of."""
-    scheme = SCHEMES[name](Field(n))
+    scheme = scheme_of(name, n)
     mesh, rows = first_mesh(scheme)
     needed = set()
     for _ in range(levels):
@@ -1241,7 +1295,7 @@ def run(program, *arguments):
 
 
 def load(program, name, valences="3..12"):
-    return run(program, "analyze", name, "--valence", valences, "--format", "json", "--digits", str(DIGITS))
+    return run(program, "analyze", file_of(name), "--valence", valences, "--format", "json", "--digits", str(DIGITS))
 
 
 def orbits_of(report):
@@ -1257,39 +1311,53 @@ def compare(name, document, oracles, notes, matrices=None):
     formulas = 0
     for report in document["valences"]:
         n = report["n"]
+        require(report["characteristic_map"], f"{name}, n = {n}: no characteristic map")
         if n not in oracles:
             oracles[n] = Oracle(name, n, orbits_of(report))
         oracle = oracles[n]
-        values = oracle.check_eigenvalues(report)
-        oracle.check_masks(report, values)
-        formulas += oracle.check_formulas(document.get("all_valences"), values, notes)
+        try:
+            values = oracle.check_eigenvalues(report)
+            oracle.check_masks(report, values)
+            formulas += oracle.check_formulas(document.get("all_valences"), values, notes)
+        except (KeyError, TypeError) as error:
+            raise Mismatch(f"{name}, n = {n}: a value is missing or null ({error})") from error
         if matrices is not None:
             oracle.check_matrix(matrices(n))
     return formulas
 
 
+def check_scheme(program, name, notes):
+    started = time.monotonic()
+    document = load(program, name)
+    told = [v["n"] for v in document["valences"]]
+    require(told == list(VALENCES), f"{name}: valences {told}")
+    require(document.get("all_valences") or name in OWN_SCHEMES, f"{name}: no formulas for all valences")
+    formulas = compare(name, document, {}, notes, lambda n: run(program, "matrix", file_of(name), "--valence", str(n), "--format", "json"))
+    for n in (3, 4, 5):
+        orbits = sorted(orbits_of(next(v for v in document["valences"] if v["n"] == n)))
+        seen = influence(name, n)
+        require(seen == orbits, f"{name}, n = {n}: points that influence the surface around the centre: {seen}, told {orbits}")
+    count = sum(e["algebraic"] for v in document["valences"] for e in v["eigenvalues"])
+    print(f"{name:28}{len(told):9}{count:13}{formulas:10}{time.monotonic() - started:9.1f}", flush=True)
+    return document
+
+
 def check_all(program):
-    reports, notes = {}, []
+    """Every scheme, also after a mismatch in another; the mismatches are told together."""
+    reports, notes, mismatches = {}, [], []
     print(f"{'scheme':28}{'valences':>9}{'eigenvalues':>13}{'formulas':>10}{'seconds':>9}")
-    for name in SCHEMES:
-        started = time.monotonic()
-        document = load(program, name)
-        told = [v["n"] for v in document["valences"]]
-        require(told == list(VALENCES), f"{name}: valences {told}")
-        require(document.get("all_valences"), f"{name}: no formulas for all valences")
-        matrices = lambda n: run(program, "matrix", name, "--valence", str(n), "--format", "json")
-        formulas = compare(name, document, {}, notes, matrices)
-        for n in (3, 4, 5):
-            orbits = sorted(orbits_of(next(v for v in document["valences"] if v["n"] == n)))
-            seen = influence(name, n)
-            require(seen == orbits, f"{name}, n = {n}: points that influence the surface around the centre: {seen}, told {orbits}")
-        count = sum(e["algebraic"] for v in document["valences"] for e in v["eigenvalues"])
-        print(f"{name:28}{len(told):9}{count:13}{formulas:10}{time.monotonic() - started:9.1f}")
-        reports[name] = document
+    for name in [*SCHEMES, *OWN_SCHEMES]:
+        try:
+            reports[name] = check_scheme(program, name, notes)
+        except Mismatch as mismatch:
+            mismatches.append(str(mismatch))
+            print(f"{name:28}{'differs':>9}", flush=True)
     check_published(reports)
     for note in notes:
         print("note:", note)
     check_sympy()
+    if mismatches:
+        raise Mismatch("\n          ".join(mismatches))
 
 
 def check_sympy():
@@ -1370,6 +1438,9 @@ def corruptions(document):
         if each(document)["curvature"][which]:
             yield changed(which, lambda d, which=which: each(d)["curvature"][which].update(exact="1/7"))
     yield changed("ratio", lambda d: each(d)["subsubdominant"].update(ratio=each(d)["subsubdominant"]["ratio"] * 1.0000001))
+    for i, verdict in enumerate(each(document)["verdicts"]):
+        if verdict["claim"] in ("1 dominates", "subdominant"):
+            yield changed(f"verdict on '{verdict['claim']}'", lambda d, i=i: each(d)["verdicts"][i].update(verdict="undecided"))
     yield changed("characteristic map", lambda d: each(d)["characteristic_map"][1].update(xy=[1.5, 0.25]))
     yield changed("tangent mask", lambda d: each(d)["tangent_masks"][0][1].update(weight=0.3))
 
