@@ -229,13 +229,13 @@ fn the_jordan_blocks_of_doo_sabin() {
 /// What curvature does: the literature's cases, decided.
 #[test]
 fn curvature_is_decided() {
-    use CurvatureClass::{BoundedOnly, Converges, Diverges, DivergesSlowly, Flat};
+    use CurvatureClass::{BoundedOnly, Converges, Diverges, DivergesNearby, DivergesSlowly, Flat};
     let cases: [(&str, &[(usize, CurvatureClass)]); 5] = [
         ("loop", &[(3, Diverges), (4, BoundedOnly), (5, BoundedOnly), (6, Converges), (7, Diverges)]),
         ("catmull-clark", &[(3, Flat), (4, Converges), (5, Diverges)]),
         ("doo-sabin", &[(3, BoundedOnly), (4, BoundedOnly), (5, DivergesSlowly), (8, DivergesSlowly)]),
         ("loop-warren", &[(4, Diverges), (6, Converges)]),
-        ("modified-butterfly", &[(5, BoundedOnly), (6, DivergesSlowly), (7, BoundedOnly)]),
+        ("modified-butterfly", &[(5, DivergesNearby), (6, DivergesSlowly), (7, DivergesNearby)]),
     ];
     for (id, expected) in cases {
         let scheme = open(id);
@@ -289,6 +289,9 @@ fn roots_are_adjoined_or_enclosed() {
         let analysis = exact_at(&scheme, 5);
         assert_eq!(analysis.arithmetic == Arithmetic::Exact, exact, "{beta}");
         assert_eq!(analysis.why_enclosed.is_none(), exact);
+        assert!(analysis.one.is_some() && analysis.lambda.is_some(), "{beta}: 1 is told from the rest");
+        let lambda = &analysis.eigenvalues[analysis.lambda.unwrap()];
+        assert!((lambda.re.midpoint_f64() - value("3/8 + cos(2*pi/5)/4", 5, 0)).abs() < 1e-14, "{beta}");
         let cup = 5.0 / 8.0 - 5.0 * value(beta, 5, 0);
         let near = |e: &&eigenring::analysis::exact::ExactEigenvalue| (e.re.midpoint_f64() - cup).abs() < 1e-14;
         let found = analysis.eigenvalues.iter().find(near).unwrap_or_else(|| panic!("{beta}"));

@@ -104,6 +104,8 @@ pub struct RegularPart {
     pub rival: f64,
     /// Whether 1, then 1/2 twice, then less is exactly so.
     pub exactly: Option<bool>,
+    /// Whether curvature diverges at regular vertices, exactly.
+    pub curvature_diverges: Option<bool>,
 }
 
 impl<'a> Analyzer<'a> {
@@ -136,7 +138,8 @@ impl<'a> Analyzer<'a> {
         let lambda = regular.lambda.map(|e| e.value.re);
         analyzer.exact_regular = regular.exact.clone().ok();
         let exactly = analyzer.exact_regular.as_ref().and_then(one_then_halves);
-        analyzer.regular_part = RegularPart { valence, next_modulus, lambda, rival, exactly };
+        let curvature_diverges = analyzer.exact_regular.as_ref().and_then(ExactAnalysis::curvature_diverges);
+        analyzer.regular_part = RegularPart { valence, next_modulus, lambda, rival, exactly, curvature_diverges };
         if let (Some(limit), Some(tangents)) = (&regular.limit_mask, &regular.tangent_masks) {
             analyzer.regular = Some(RegularMasks::of(&regular.local, limit, tangents));
         }

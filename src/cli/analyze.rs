@@ -113,7 +113,7 @@ fn add_sweep(
 
 /// A bar on a terminal, when the work takes long enough to ask for one.
 fn progress_bar(valences: &[usize]) -> ProgressBar {
-    if valences.iter().sum::<usize>() < 5_000 {
+    if valences.iter().sum::<usize>() < 500 {
         return ProgressBar::hidden();
     }
     let bar = ProgressBar::new(valences.len() as u64);

@@ -21,7 +21,7 @@ pub const MAX_DEGREE: usize = 24;
 /// Larger N have a larger degree in any case.
 const MAX_ORDER: u64 = 8 * (MAX_DEGREE * MAX_DEGREE) as u64;
 
-const MAX_BITS: usize = 4096;
+const MAX_BITS: usize = 1536;
 
 const TOO_LARGE: Trouble = Trouble::BeyondThisWorld("the exact value is too large to hold");
 

@@ -140,7 +140,8 @@ fn identities(all: &AllValences) -> Vec<Identity> {
         let holds = all.is_square_of_subdominant(all.classical[of].as_ref()?)?;
         let value = factor_in_words(all.classical[of].as_ref()?, &all.parameters).into_iter().next()?;
         let equal = if holds { "is lambda^2" } else { "is not lambda^2, as a function of n," };
-        let states = format!("{}, the largest of frequency {k}, {equal} for every n >= {}", value.text, all.from.max(least));
+        let states =
+            format!("{}, the largest of frequency {k}, {equal} for every n >= {}", value.text, all.from.max(least));
         let states = if holds { format!("{states}: the ratio is exactly 1") } else { states };
         Some(Identity { claim, states, holds })
     };

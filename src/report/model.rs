@@ -470,7 +470,9 @@ fn classical_report(analysis: &Analysis, e: &Eigenvalue, digits: usize) -> Class
         Some((exact, index, &exact.eigenvalues[index]))
     });
     ClassicalReport {
-        value: e.real().unwrap_or(e.modulus()),
+        value: own
+            .filter(|(_, _, own)| own.is_real())
+            .map_or(e.real().unwrap_or(e.modulus()), |(_, _, own)| own.re.midpoint_f64()),
         ratio: lambda.map(|lambda| e.modulus() / (lambda * lambda)),
         exact: own.and_then(|(_, _, own)| own.exact.as_ref()).map(|words| words.text.clone()),
         formula: own.and_then(|(_, _, own)| own.formula.as_ref()).map(|words| words.text.clone()),

@@ -78,9 +78,19 @@ fn formulas(report: &Report) -> String {
             .map_or(String::new(), |why| format!("No closed forms for all n: {why}.\n"));
     };
     let mut text = String::new();
+    let told = |v: &&ValenceReport| v.n >= all.from && all.except != Some(v.n);
     if let Some(lambda) = &all.subdominant {
-        let except = all.except.map_or(String::new(), |n| format!(" but {n}"));
-        let _ = writeln!(text, "Frequency 1 for every n >= {}{except}, its largest at all n tried: {}", all.from, lambda.formula);
+        let same = |v: &ValenceReport| {
+            v.subdominant.as_ref().is_some_and(|e| e.quantity.formula.as_ref() == Some(&lambda.formula))
+        };
+        if report.valences.iter().filter(told).all(same) {
+            let except = all.except.map_or(String::new(), |n| format!(" but {n}"));
+            let _ = writeln!(
+                text,
+                "lambda = {} at all these n (an eigenvalue for every n >= {}{except}).",
+                lambda.formula, all.from
+            );
+        }
     }
     for identity in all.identities.iter().filter(|identity| identity.holds) {
         let _ = writeln!(text, "{}: {}", identity.claim, identity.states);

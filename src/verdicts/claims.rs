@@ -5,8 +5,8 @@ use crate::analysis::Analysis;
 use crate::analysis::exact::Value;
 use crate::analysis::spectrum::{Eigenvalue, NEAR};
 use crate::fault::Fault;
-use dashu_ratio::RBig;
 use crate::scheme::{Claim, Place, Quantity, Scheme};
+use dashu_ratio::RBig;
 use serde::{Deserialize, Serialize};
 
 /// Approximate values that differ by less are said to agree, unless the claim is a decimal: then half a unit of its last digit.

@@ -411,13 +411,13 @@ fn curvature(analysis: &Analysis) -> Verdict {
     }
     let Some(Curvature { ratio, class, proved }) = curvature_of(analysis) else {
         let why = match exact_lambda_dominates(analysis) {
-            Some(false) => "asked only where lambda dominates: it ties with mu",
+            Some(false) => "asked only where lambda dominates and is below 1",
             _ => "asked only where lambda dominates: it ties with mu as far as floating numbers see",
         };
         return undecided("curvature", states, "none".to_string(), Evidence::None, &[why.to_string()], &sources);
     };
     let evidence = match class {
-        CurvatureClass::Diverges | CurvatureClass::DivergesSlowly => Evidence::Against,
+        CurvatureClass::Diverges | CurvatureClass::DivergesSlowly | CurvatureClass::DivergesNearby => Evidence::Against,
         CurvatureClass::Tie => Evidence::None,
         _ => Evidence::For,
     };
@@ -437,6 +437,8 @@ pub enum CurvatureClass {
     Diverges,
     /// Exactly 1, with a Jordan block.
     DivergesSlowly,
+    /// Not by the eigenvalues here, but at regular vertices, which lie as near as one likes.
+    DivergesNearby,
     /// Too near 1 for floating numbers to tell.
     Tie,
     /// Exactly 1, without a Jordan block; whether curvature converges is not decided.
@@ -455,6 +457,7 @@ impl CurvatureClass {
         match self {
             CurvatureClass::Diverges => "diverges",
             CurvatureClass::DivergesSlowly => "diverges (log)",
+            CurvatureClass::DivergesNearby => "diverges (reg)",
             CurvatureClass::Tie => "tie at 1",
             CurvatureClass::Bounded | CurvatureClass::BoundedOnly => "bounded",
             CurvatureClass::Converges => "converges",
@@ -467,6 +470,9 @@ impl CurvatureClass {
             CurvatureClass::Diverges => "above 1: curvature diverges",
             CurvatureClass::DivergesSlowly => {
                 "exactly 1 with a Jordan block: curvature diverges, with the logarithm of the distance"
+            }
+            CurvatureClass::DivergesNearby => {
+                "not by the eigenvalues here, but curvature diverges at regular vertices, which lie as near as one likes"
             }
             CurvatureClass::Tie => {
                 "1 as far as floating numbers see: if exactly 1, curvature diverges with a Jordan block, and else is bounded and \
@@ -502,8 +508,9 @@ pub struct Curvature {
 /// Whether lambda certainly is larger than all that follows, or certainly not.
 fn exact_lambda_dominates(analysis: &Analysis) -> Option<bool> {
     let exact = analysis.exact.as_ref().ok()?;
-    let next = exact.after_subdominant().next()?.0;
-    exact.compare_moduli(exact.lambda?, next).map(|order| order == Ordering::Greater)
+    let (next, lambda) = (exact.after_subdominant().next()?.0, exact.lambda?);
+    let below_one = exact.compare_moduli(exact.one?, lambda)? == Ordering::Greater;
+    exact.compare_moduli(lambda, next).map(|order| order == Ordering::Greater && below_one)
 }
 
 /// What curvature does, where lambda is determined and dominates what follows.
@@ -514,6 +521,9 @@ pub fn curvature_of(analysis: &Analysis) -> Option<Curvature> {
         Some(false) => return None,
         Some(true) => {
             if let Some(class) = analysis.exact.as_ref().ok().and_then(exact_curvature) {
+                let diverges = matches!(class, CurvatureClass::Diverges | CurvatureClass::DivergesSlowly);
+                let nearby = !diverges && analysis.regular.curvature_diverges == Some(true);
+                let class = if nearby { CurvatureClass::DivergesNearby } else { class };
                 return Some(Curvature { ratio, class, proved: true });
             }
         }
@@ -531,27 +541,16 @@ pub fn curvature_of(analysis: &Analysis) -> Option<Curvature> {
 }
 
 fn exact_curvature(exact: &ExactAnalysis) -> Option<CurvatureClass> {
-    let (first, e) = exact.after_subdominant().next()?;
-    if !exact.certain[e.level] {
-        return None;
-    }
-    match exact.against_square.get(first).copied().flatten()? {
-        Ordering::Less => Some(CurvatureClass::Flat),
-        Ordering::Greater => Some(CurvatureClass::Diverges),
-        Ordering::Equal => {
-            let tied =
-                exact.after_subdominant().filter(|(index, _)| exact.against_square[*index] == Some(Ordering::Equal));
-            let sizes: Option<Vec<usize>> = tied.map(|(_, e)| e.structure.map(|structure| structure.largest)).collect();
-            if sizes?.iter().any(|size| *size > 1) {
-                return Some(CurvatureClass::DivergesSlowly);
-            }
-            Some(match exact.converges {
-                Some(true) => CurvatureClass::Converges,
-                Some(false) => CurvatureClass::BoundedOnly,
-                None => CurvatureClass::Bounded,
-            })
-        }
-    }
+    let (first, _) = exact.after_subdominant().next()?;
+    let order = exact.against_square.get(first).copied().flatten()?;
+    Some(match (order, exact.curvature_diverges()?, exact.converges) {
+        (Ordering::Less, ..) => CurvatureClass::Flat,
+        (Ordering::Greater, ..) => CurvatureClass::Diverges,
+        (Ordering::Equal, true, _) => CurvatureClass::DivergesSlowly,
+        (Ordering::Equal, false, Some(true)) => CurvatureClass::Converges,
+        (Ordering::Equal, false, Some(false)) => CurvatureClass::BoundedOnly,
+        (Ordering::Equal, false, None) => CurvatureClass::Bounded,
+    })
 }
 
 /// Ten decimals.

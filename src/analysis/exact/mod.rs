@@ -157,6 +157,20 @@ impl ExactAnalysis {
         clear.then_some(index)
     }
 
+    /// Whether curvature diverges by these eigenvalues: |mu| > lambda^2, or equality with a Jordan block.
+    pub fn curvature_diverges(&self) -> Option<bool> {
+        let (first, e) = self.after_subdominant().next()?;
+        match self.against_square.get(first).copied().flatten().filter(|_| self.certain[e.level])? {
+            Ordering::Less => Some(false),
+            Ordering::Greater => Some(true),
+            Ordering::Equal => {
+                let tied = self.after_subdominant().filter(|(_, other)| other.level == e.level);
+                let sizes: Option<Vec<usize>> = tied.map(|(_, own)| Some(own.structure?.largest)).collect();
+                Some(sizes?.iter().any(|size| *size > 1))
+            }
+        }
+    }
+
     /// The order of the moduli of two eigenvalues, where it is known.
     pub fn compare_moduli(&self, a: usize, b: usize) -> Option<Ordering> {
         let (low, high) = (self.eigenvalues[a].level, self.eigenvalues[b].level);

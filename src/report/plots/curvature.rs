@@ -76,7 +76,9 @@ fn regions(canvas: &mut Canvas, axes: &Axes) {
 fn marker(canvas: &mut Canvas, class: CurvatureClass, at: (i32, i32), radius: i32) {
     match class {
         CurvatureClass::Diverges => canvas.marker(Marker::Triangle, at, radius, colours::VERMILLION, None),
-        CurvatureClass::DivergesSlowly => canvas.marker(Marker::Triangle, at, radius, colours::VERMILLION, Some(4)),
+        CurvatureClass::DivergesSlowly | CurvatureClass::DivergesNearby => {
+            canvas.marker(Marker::Triangle, at, radius, colours::VERMILLION, Some(4))
+        }
         CurvatureClass::Tie => canvas.marker(Marker::Square, at, radius, colours::BLACK, Some(2)),
         CurvatureClass::Bounded | CurvatureClass::BoundedOnly => {
             canvas.marker(Marker::Square, at, radius, colours::BLUE, Some(4));
@@ -91,6 +93,7 @@ fn legend(canvas: &mut Canvas, points: &[Point]) {
     let all = [
         CurvatureClass::Diverges,
         CurvatureClass::DivergesSlowly,
+        CurvatureClass::DivergesNearby,
         CurvatureClass::Bounded,
         CurvatureClass::Converges,
         CurvatureClass::Tie,
