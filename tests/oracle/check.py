@@ -623,17 +623,6 @@ class LoopSqrt2(Loop):
         return combine([(self.q(1) - m * beta, rows[v])] + [(beta, rows[u]) for u in fan])
 
 
-class CatmullClarkSqrt2(CatmullClark):
-    """A scheme of this check, schemes/catmull-clark-sqrt2.toml: 1 is a root of a cubic polynomial over Q(sqrt 2)."""
-
-    beyond = 8
-
-    def vertex(self, mesh, rows, new, v, fan):
-        share = self.field.cos(Fraction(1, 8)) / (4 * len(fan))
-        around = fan + [mesh.after[v, u] for u in fan]
-        return combine([(self.q(1) - 2 * len(fan) * share, rows[v])] + [(share, rows[u]) for u in around])
-
-
 SCHEMES = {
     "loop": Loop,
     "loop-warren": LoopWarren,
@@ -642,7 +631,7 @@ SCHEMES = {
     "catmull-clark-biquadratic": Biquadratic,
     "modified-butterfly": Butterfly,
 }
-OWN_SCHEMES = {"loop-sqrt2": LoopSqrt2, "catmull-clark-sqrt2": CatmullClarkSqrt2}
+OWN_SCHEMES = {"loop-sqrt2": LoopSqrt2}
 
 
 def scheme_of(name, n):
