@@ -4,7 +4,8 @@
 //! of cosines; a root of a quadratic polynomial is written with its square root; a root of any other is named by its
 //! polynomial and its number, largest modulus first.
 
-use super::{BITS, Hint, Value};
+use super::split::Hint;
+use super::{BITS, Value};
 use crate::numbers::closed_form::ClosedForm;
 use crate::numbers::roots::Root;
 use crate::numbers::{Cosine, Field, Free, Univariate, square_part};
