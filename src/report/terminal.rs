@@ -87,7 +87,7 @@ fn formulas(report: &Report) -> String {
             let except = all.except.map_or(String::new(), |n| format!(" but {n}"));
             let _ = writeln!(
                 text,
-                "lambda = {} at all these n (an eigenvalue for every n >= {}{except}).",
+                "lambda = {} at these n >= {}{except}, and an eigenvalue for every such n.",
                 lambda.formula, all.from
             );
         }

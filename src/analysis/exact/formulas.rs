@@ -92,7 +92,7 @@ pub struct AllValences {
 }
 
 /// Valences at which numbers tell which form is the largest.
-const SAMPLES: [usize; 8] = [7, 8, 9, 10, 12, 15, 24, 101];
+const SAMPLES: [usize; 12] = [3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 24, 101];
 
 impl AllValences {
     /// The forms of a scheme. `orbits` are those of the full neighbourhood at [`GENERIC`], `smallest` those of the smallest invariant one.

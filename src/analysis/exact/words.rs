@@ -82,8 +82,12 @@ impl Described for Cosine {
         }
         let forms = ClosedForm::of(&hint.form)?;
         let distance = |form: &ClosedForm| Some((approx_value(form, &hint.approx)? - root.re.midpoint_f64()).abs());
-        let nearest = forms.iter().filter_map(|form| Some((distance(form)?, form)));
-        let (_, form) = nearest.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+        let mut nearest: Vec<(f64, &ClosedForm)> =
+            forms.iter().filter_map(|form| Some((distance(form)?, form))).collect();
+        nearest.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        // two roots that floating numbers hardly part are not named
+        let told = nearest.get(1).is_none_or(|(other, _)| nearest[0].0 < 1e-9 && *other > 1e-6);
+        let (_, form) = nearest.first().filter(|_| told)?;
         Some(form_at_frequency(form, k, &hint.parameters))
     }
 

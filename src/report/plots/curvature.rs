@@ -33,7 +33,8 @@ pub(super) fn picture(analyses: &[Analysis]) -> Result<Picture, Obstacle> {
     })?;
     let caption = format!(
         "The ratio |μ|/λ² against the valence n, μ being the largest eigenvalue after the subdominant one over the full \
-         neighbourhood: above 1 the curvature diverges, below 1 the extraordinary point is flat.{}",
+         neighbourhood: above 1 the curvature diverges, below 1 the extraordinary point is flat; (log) says that it diverges like a power \
+         of a logarithm, (reg) that it does so at the regular vertices nearby.{}",
         left_out(analyses.len() - points.len())
     );
     Ok(Picture { name: "curvature", caption, svg })
@@ -76,9 +77,8 @@ fn regions(canvas: &mut Canvas, axes: &Axes) {
 fn marker(canvas: &mut Canvas, class: CurvatureClass, at: (i32, i32), radius: i32) {
     match class {
         CurvatureClass::Diverges => canvas.marker(Marker::Triangle, at, radius, colours::VERMILLION, None),
-        CurvatureClass::DivergesSlowly | CurvatureClass::DivergesNearby => {
-            canvas.marker(Marker::Triangle, at, radius, colours::VERMILLION, Some(4))
-        }
+        CurvatureClass::DivergesNearby => canvas.marker(Marker::Diamond, at, radius, colours::VERMILLION, None),
+        CurvatureClass::DivergesSlowly => canvas.marker(Marker::Triangle, at, radius, colours::VERMILLION, Some(4)),
         CurvatureClass::Tie => canvas.marker(Marker::Square, at, radius, colours::BLACK, Some(2)),
         CurvatureClass::Bounded | CurvatureClass::BoundedOnly => {
             canvas.marker(Marker::Square, at, radius, colours::BLUE, Some(4));
@@ -102,7 +102,7 @@ fn legend(canvas: &mut Canvas, points: &[Point]) {
     let seen = |class: &&CurvatureClass| points.iter().any(|point| point.class.words() == class.words());
     let classes: Vec<CurvatureClass> = all.iter().filter(seen).copied().collect();
     for (index, class) in classes.into_iter().enumerate() {
-        let x = 210 + 200 * index as i32;
+        let x = 210 + 240 * index as i32;
         marker(canvas, class, (x, 40), 11);
         canvas.text(class.words(), (x + 26, 40), SMALL, Anchor::Left);
     }
