@@ -2,7 +2,7 @@
 //! boundaries, addresses?
 #![allow(clippy::unwrap_used)]
 
-use eigenring::mesh::{Connectivity, HalfEdgeMesh, Label, Lattice, Patch};
+use eigenring::mesh::{Connectivity, HalfEdgeMesh, Label, Lattice, Patch, Tagged, Tags};
 use eigenring::refine::{Obstacle, Refinement, Row};
 use eigenring::scheme::{Scheme, catalogue};
 
@@ -116,7 +116,9 @@ fn loop_with_the_cubic_boundary_makes_rows_on_a_mesh() {
     assert_eq!(rows[0].len(), 5, "an interior vertex of valence 4");
     assert_eq!(rows[1], [(1, 0.75), (4, 0.125), (5, 0.125)], "a boundary vertex of three faces");
     assert_eq!(rows[5], [(1, 0.125), (2, 0.125), (5, 0.75)], "a boundary vertex of one face");
-    let corner = refinement.boundary_corner_row(&mesh, mesh.vertex_edges()[5]).unwrap();
+    let tags = Tags::new(&mesh, &[], &[5]).unwrap();
+    let tagged = Tagged { mesh: &mesh, tags: &tags, beyond: 0.0 };
+    let corner = refinement.vertex_row(&tagged, mesh.vertex_edges()[5]).unwrap();
     assert_eq!(corner, [(5, 1.0)]);
     let (mut inside, mut border) = (0, 0);
     for edge in mesh.edges() {

@@ -3,11 +3,19 @@
 //! Two kinds of mesh share one way of walking, over half-edges ([`Connectivity`]): a mesh of polygons ([`HalfEdgeMesh`])
 //! and the canonical patch around one extraordinary point, which extends as far as anybody walks ([`Patch`]).
 
+mod faces;
 mod half_edge;
+mod pairing;
 mod patch;
+mod soup;
+mod tags;
 
-pub use half_edge::{HalfEdgeMesh, NotAMesh};
+pub use faces::{Faces, Sides};
+pub use half_edge::{HalfEdgeMesh, MAX_CORNERS, NONE};
+pub use pairing::NotAMesh;
 pub use patch::{Label, Lattice, Patch, PatchEdge, Site};
+pub use soup::{Crease, PolygonSoup};
+pub use tags::{BadTag, Tagged, Tags, edge_between, first_corner};
 
 /// A mesh seen through its half-edges. The half-edge h leaves `origin(h)` along an edge; the face to its left is its own.
 /// Where there is no face the half-edge still exists, and `next` follows the boundary.
@@ -27,6 +35,21 @@ pub trait Connectivity {
     fn origin(&self, edge: Self::Edge) -> Self::Point;
     /// Whether there is a face to the left.
     fn has_face(&self, edge: Self::Edge) -> bool;
+
+    /// Whether the two sides of the edge don't see each other: it is a crease, or the boundary.
+    fn is_sharp(&self, edge: Self::Edge) -> bool {
+        !self.has_face(edge) || !self.has_face(self.twin(edge))
+    }
+
+    /// Whether the vertex that the half-edge leaves is tagged as a corner.
+    fn is_corner(&self, _: Self::Edge) -> bool {
+        false
+    }
+
+    /// The half-edges that leave the origin of `edge` along creases and the boundary, counter-clockwise from it.
+    fn sharp_spokes(&self, edge: Self::Edge) -> Vec<Self::Edge> {
+        self.around_vertex(edge).into_iter().filter(|spoke| self.is_sharp(*spoke)).collect()
+    }
 
     /// The vertex that the half-edge leads to.
     fn target(&self, edge: Self::Edge) -> Self::Point {

@@ -244,6 +244,14 @@ impl Connectivity for Patch {
     fn boundary_at(&self, _: PatchEdge) -> Option<PatchEdge> {
         None
     }
+
+    fn is_sharp(&self, _: PatchEdge) -> bool {
+        false
+    }
+
+    fn sharp_spokes(&self, _: PatchEdge) -> Vec<PatchEdge> {
+        Vec::new()
+    }
 }
 
 #[cfg(test)]

@@ -182,28 +182,26 @@ impl<'a, W: Field> Refinement<'a, W> {
         }
     }
 
-    /// The row of the point that replaces the origin of `edge`.
+    /// The row of the point that replaces the origin of `edge`: by the rule [vertex] where at most one crease ends there, by
+    /// [vertex.crease], told around one side, where one passes through, by [vertex.corner] where three or more meet or the
+    /// vertex is tagged so. A boundary is a crease with nothing beyond it.
     ///
     /// # Errors
     /// As [`Refinement::row_at`].
     pub fn vertex_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
-        match mesh.boundary_at(edge) {
-            None => self.apply(mesh, RuleKind::Vertex, mesh.valence(edge), &mesh.around_vertex(edge)),
-            Some(last) => {
-                // from the first edge of the sector to the last, which has no face to its left
-                let mut spokes = mesh.around_vertex(last);
-                spokes.rotate_left(1);
-                self.apply(mesh, RuleKind::VertexCrease, spokes.len() - 1, &spokes)
-            }
+        let sharp = mesh.sharp_spokes(edge);
+        if mesh.is_corner(edge) || sharp.len() > 2 {
+            return self.apply(mesh, RuleKind::VertexCorner, 0, &[edge]);
         }
-    }
-
-    /// The row of a corner of the boundary, at the origin of `edge`.
-    ///
-    /// # Errors
-    /// As [`Refinement::row_at`].
-    pub fn boundary_corner_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
-        self.apply(mesh, RuleKind::VertexCorner, 0, &[edge])
+        let first = sharp.iter().find(|spoke| sharp.len() == 2 && mesh.has_face(**spoke));
+        let Some(first) = first else {
+            return self.apply(mesh, RuleKind::Vertex, mesh.valence(edge), &mesh.around_vertex(edge));
+        };
+        // the spokes of one side, from one crease edge to the other
+        let mut spokes = mesh.around_vertex(*first);
+        let faces = spokes.iter().skip(1).position(|spoke| mesh.is_sharp(*spoke)).map_or(0, |last| last + 1);
+        spokes.truncate(faces + 1);
+        self.apply(mesh, RuleKind::VertexCrease, faces, &spokes)
     }
 
     /// The row of the new point on an edge. A rule told from an irregular end is applied from each such end, and the results
@@ -213,12 +211,12 @@ impl<'a, W: Field> Refinement<'a, W> {
     /// As [`Refinement::row_at`].
     pub fn edge_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
         let halves = [edge, mesh.twin(edge)];
-        if halves.iter().any(|half| !mesh.has_face(*half)) {
+        if mesh.is_sharp(edge) {
             return self.apply(mesh, RuleKind::EdgeCrease, 0, &halves);
         }
         if self.scheme.book.rules.contains_key(&RuleKind::EdgeFromIrregularEnd) {
             let regular = self.scheme.regular_valence();
-            let irregular = |half: &&M::Edge| mesh.valence(**half) != regular && mesh.boundary_at(**half).is_none();
+            let irregular = |half: &&M::Edge| mesh.valence(**half) != regular && mesh.sharp_spokes(**half).len() < 2;
             let ends: Vec<M::Edge> = halves.iter().filter(irregular).copied().collect();
             if !ends.is_empty() {
                 return self.mean_from_ends(mesh, &ends);
