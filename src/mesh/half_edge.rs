@@ -52,9 +52,9 @@ impl HalfEdgeMesh {
         HalfEdgeMesh { faces, twin, leaving }
     }
 
-    /// The parts, to be used as buffers.
-    pub(super) fn into_parts(self) -> (Faces, Vec<u32>, Vec<u32>) {
-        (self.faces, self.twin, self.leaving)
+    /// The memory of a mesh that is done with: corners, twins, and the half-edges that leave the vertices.
+    pub fn into_buffers(self) -> [Vec<u32>; 3] {
+        [self.faces.into_corners(), self.twin, self.leaving]
     }
 
     /// The number of vertices.

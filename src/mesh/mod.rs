@@ -7,7 +7,9 @@ mod faces;
 mod half_edge;
 mod pairing;
 mod patch;
+pub mod shapes;
 mod soup;
+mod split;
 mod tags;
 
 pub use faces::{Faces, Sides};
@@ -15,6 +17,7 @@ pub use half_edge::{HalfEdgeMesh, MAX_CORNERS, NONE};
 pub use pairing::NotAMesh;
 pub use patch::{Label, Lattice, Patch, PatchEdge, Site};
 pub use soup::{Crease, PolygonSoup};
+pub use split::{Birth, Numbering, Split};
 pub use tags::{BadTag, Tagged, Tags, edge_between, first_corner};
 
 /// A mesh seen through its half-edges. The half-edge h leaves `origin(h)` along an edge; the face to its left is its own.

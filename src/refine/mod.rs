@@ -1,18 +1,24 @@
 //! How is each new point made from old ones?
 //!
 //! The one place where weights meet topology: scheme x mesh -> rows of weights. A row on the canonical patch is a row of
-//! the local subdivision matrix; rows times positions are the refined mesh.
+//! the local subdivision matrix; rows times positions are the refined mesh ([`Refiner`]).
 
+mod births;
+mod compact;
 mod exact_weights;
+mod gather;
 mod names;
 mod regular;
 mod stencil;
+mod steps;
 mod symmetry;
 
 pub use exact_weights::{Count, EnclosedWeights, ExactWeights};
+pub use gather::{Coordinate, Point};
 pub use names::OrbitNames;
 pub use regular::{PatchRows, RegularStencils};
 pub use stencil::Use;
+pub use steps::{Buffers, Level, NotRefinable, Refined, Refiner, Route, ULPS, applied};
 pub use symmetry::check_symmetry;
 
 use crate::fault::{Fault, Faults};

@@ -1,0 +1,52 @@
+//! How is a point of a mesh made where creases last for a fraction of a step?
+//!
+//! An edge of sharpness s is a crease for s >= 1 and smooth for s = 0; in between its point is s times the one and 1 - s
+//! times the other. A vertex follows the rule for all its creases as far as those that end within this step last, by the mean of their
+//! sharpness, and the rule without them for the rest (DeRose, Kass and Truong 1998, with the mean taken over the creases that end).
+
+use super::{Obstacle, Refinement, Row, add_scaled, collected};
+use crate::mesh::{Birth, Connectivity, HalfEdgeMesh, Tagged, Tags, first_corner};
+
+impl Refinement<'_, f64> {
+    /// The row of a point born on a mesh with tags.
+    ///
+    /// # Errors
+    /// As [`Refinement::row_at`].
+    pub fn row_of_birth(&self, mesh: &HalfEdgeMesh, tags: &Tags, birth: Birth) -> Result<Row<u32, f64>, Obstacle> {
+        let seen = |beyond: f64| Tagged { mesh, tags, beyond };
+        let lasting = match birth {
+            Birth::Face(edge) => return self.face_row(mesh, edge),
+            Birth::Corner(edge) => return self.corner_row(mesh, edge),
+            Birth::Edge(edge) => lasting(std::iter::once(tags.sharpness(edge))),
+            Birth::Vertex(edge) if tags.creases().is_empty() => return self.vertex_row(&seen(0.0), edge),
+            Birth::Vertex(edge) => {
+                let spokes = mesh.around_vertex(edge).into_iter();
+                lasting(spokes.map(|spoke| tags.sharpness(first_corner(mesh, spoke))))
+            }
+        };
+        let row = |beyond: f64| match birth {
+            Birth::Vertex(edge) => self.vertex_row(&seen(beyond), edge),
+            _ => self.edge_row(&seen(beyond), birth.half_edge()),
+        };
+        match lasting {
+            None => row(0.0),
+            Some(share) => mixed(&row(0.0)?, share, &row(1.0)?),
+        }
+    }
+}
+
+/// The mean sharpness of the creases that end within this step; `None` when they last for the whole of it.
+fn lasting(sharpness: impl Iterator<Item = f64>) -> Option<f64> {
+    let (sum, count) =
+        sharpness.filter(|s| 0.0 < *s && *s <= 1.0).fold((0.0, 0), |(sum, count), s| (sum + s, count + 1));
+    let mean = sum / f64::from(count.max(1));
+    (count > 0 && mean < 1.0).then_some(mean)
+}
+
+/// share times one row, and the rest times the other.
+fn mixed(one: &Row<u32, f64>, share: f64, other: &Row<u32, f64>) -> Result<Row<u32, f64>, Obstacle> {
+    let mut sum = Vec::new();
+    add_scaled(&mut sum, one, &share)?;
+    add_scaled(&mut sum, other, &(1.0 - share))?;
+    collected(sum)
+}

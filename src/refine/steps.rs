@@ -1,0 +1,385 @@
+//! How is a mesh refined?
+//!
+//! By rows of weights, point by point, on any mesh that the scheme's split allows; where rules are compact, by gathering. Both
+//! ways give the same mesh with its points in the same order, and positions that differ by rounding only:
+//! by at most [`ULPS`] units in the last place of sum |w p|.
+
+use super::compact::Compact;
+use super::gather::{self, Coordinate, Point};
+use super::{Obstacle, Refinement, Row};
+use crate::mesh::{Connectivity, Faces, HalfEdgeMesh, MAX_CORNERS, NONE, NotAMesh, Numbering, Split, Tags};
+use crate::scheme::{RuleBook, Scheme};
+use rayon::prelude::*;
+use std::fmt;
+
+/// How far positions of the two routes may be apart, in units in the last place of the sum of |w p| over a point's row:
+/// half a unit for each weight, product and sum on the longest path, and as much again for points that the same step has made.
+pub const ULPS: f64 = 16.0;
+
+/// A mesh with its points and tags.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level<T> {
+    /// Its connectivity.
+    pub mesh: HalfEdgeMesh,
+    /// The points of its vertices.
+    pub positions: Vec<Point<T>>,
+    /// Its creases and corners.
+    pub tags: Tags,
+}
+
+/// Faces and points of a last step, of which no mesh is made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refined<T> {
+    /// The faces.
+    pub faces: Faces,
+    /// The points of the vertices.
+    pub positions: Vec<Point<T>>,
+}
+
+/// How new points are computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Route {
+    /// By gathering where the scheme's rules are compact, else by rows.
+    #[default]
+    Fast,
+    /// By rows everywhere.
+    General,
+}
+
+/// Why a mesh can't be refined with a scheme.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NotRefinable {
+    /// A face with a number of corners that the scheme's meshes don't have.
+    Face {
+        /// The face.
+        face: usize,
+        /// Its number of corners.
+        corners: usize,
+        /// The number that is needed.
+        needed: usize,
+    },
+    /// Creases or corners under a split that has none.
+    Tags,
+    /// A split that there is no topology for.
+    Split(String),
+    /// The new mesh is too large.
+    Mesh(NotAMesh),
+    /// A point that can't be made.
+    Obstacle(Obstacle),
+}
+
+impl fmt::Display for NotRefinable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NotRefinable::Face { face, corners, needed } => {
+                let kind = if *needed == 3 { "triangles" } else { "quads" };
+                write!(f, "face {face} has {corners} corners; the scheme refines {kind} only")
+            }
+            NotRefinable::Tags => f.write_str("the mesh has creases or corners; a dual split has none"),
+            NotRefinable::Split(name) => write!(f, "the split {name} can't be applied to meshes"),
+            NotRefinable::Mesh(wrong) => write!(f, "{wrong}"),
+            NotRefinable::Obstacle(obstacle) => write!(f, "{obstacle}"),
+        }
+    }
+}
+
+impl std::error::Error for NotRefinable {}
+
+impl From<Obstacle> for NotRefinable {
+    fn from(obstacle: Obstacle) -> Self {
+        NotRefinable::Obstacle(obstacle)
+    }
+}
+
+impl From<NotAMesh> for NotRefinable {
+    fn from(wrong: NotAMesh) -> Self {
+        NotRefinable::Mesh(wrong)
+    }
+}
+
+/// The memory of what a step made and is done with, for the next one.
+#[derive(Debug, Default)]
+pub struct Buffers<T> {
+    numbering: Numbering,
+    corners: Vec<u32>,
+    twin: Vec<u32>,
+    leaving: Vec<u32>,
+    positions: Vec<Point<T>>,
+}
+
+impl<T: Coordinate> Buffers<T> {
+    /// Takes the memory of a level that is done with.
+    pub fn take(&mut self, level: Level<T>) {
+        [self.corners, self.twin, self.leaving] = level.mesh.into_buffers();
+        self.positions = level.positions;
+    }
+
+    /// Takes the memory of a last step that is done with.
+    pub fn take_refined(&mut self, refined: Refined<T>) {
+        self.corners = refined.faces.into_corners();
+        self.positions = refined.positions;
+    }
+}
+
+/// A scheme with its boundary rules, ready to refine meshes.
+#[derive(Clone, Debug)]
+pub struct Refiner<'a> {
+    scheme: &'a Scheme,
+    boundary: Option<&'a RuleBook>,
+    split: Split,
+}
+
+impl<'a> Refiner<'a> {
+    /// A scheme, with the rules of a boundary file where there is one.
+    ///
+    /// # Errors
+    /// When there is no topology for the scheme's split.
+    pub fn new(scheme: &'a Scheme, boundary: Option<&'a RuleBook>) -> Result<Refiner<'a>, NotRefinable> {
+        let split = Split::named(&scheme.split).ok_or_else(|| NotRefinable::Split(scheme.split.clone()))?;
+        Ok(Refiner { scheme, boundary, split })
+    }
+
+    /// The topology of the scheme's split.
+    pub fn split(&self) -> Split {
+        self.split
+    }
+
+    /// The scheme.
+    pub fn scheme(&self) -> &'a Scheme {
+        self.scheme
+    }
+
+    /// The rules of the boundary file.
+    pub fn boundary(&self) -> Option<&'a RuleBook> {
+        self.boundary
+    }
+
+    /// Whether every rule of the scheme inside the mesh is compact, so that points can be gathered.
+    pub fn is_compact(&self) -> bool {
+        Compact::<f64>::of(&Refinement::new(self.scheme, self.boundary)).is_some()
+    }
+
+    /// Checks that the scheme's split can be applied to a mesh.
+    ///
+    /// # Errors
+    /// The first face that is not fit.
+    pub fn fits(&self, mesh: &HalfEdgeMesh, tags: &Tags) -> Result<(), NotRefinable> {
+        if self.split == Split::Dual && !tags.is_empty() {
+            return Err(NotRefinable::Tags);
+        }
+        let needed = match self.scheme.mesh.as_str() {
+            "triangles" => 3,
+            "quads" => 4,
+            _ => return Ok(()),
+        };
+        if mesh.faces().same_size() == Some(needed as u32) {
+            return Ok(());
+        }
+        let odd = mesh.faces().iter().enumerate().find(|(_, face)| face.len() != needed);
+        odd.map_or(Ok(()), |(face, corners)| Err(NotRefinable::Face { face, corners: corners.len(), needed }))
+    }
+
+    /// One step.
+    ///
+    /// # Errors
+    /// When the split can't be applied, the new mesh is too large, or a point can't be made.
+    pub fn step<T: Coordinate>(&self, level: &Level<T>, route: Route) -> Result<Level<T>, NotRefinable> {
+        self.step_in(level, route, &mut Buffers::default())
+    }
+
+    /// One step, in memory that is there already.
+    ///
+    /// # Errors
+    /// As [`Refiner::step`].
+    pub fn step_in<T: Coordinate>(
+        &self,
+        level: &Level<T>,
+        route: Route,
+        buffers: &mut Buffers<T>,
+    ) -> Result<Level<T>, NotRefinable> {
+        let Refined { faces, positions } = self.last_step_in(level, route, buffers)?;
+        let spare = [std::mem::take(&mut buffers.twin), std::mem::take(&mut buffers.leaving)];
+        let mesh = self.split.mesh(&level.mesh, &buffers.numbering, faces, spare);
+        let tags = self.split.tags(&level.mesh, &level.tags, &mesh);
+        Ok(Level { mesh, positions, tags })
+    }
+
+    /// One step after which none follows: faces and points only.
+    ///
+    /// # Errors
+    /// As [`Refiner::step`].
+    pub fn last_step<T: Coordinate>(&self, level: &Level<T>, route: Route) -> Result<Refined<T>, NotRefinable> {
+        self.last_step_in(level, route, &mut Buffers::default())
+    }
+
+    /// The same, in memory that is there already.
+    ///
+    /// # Errors
+    /// As [`Refiner::step`].
+    pub fn last_step_in<T: Coordinate>(
+        &self,
+        level: &Level<T>,
+        route: Route,
+        buffers: &mut Buffers<T>,
+    ) -> Result<Refined<T>, NotRefinable> {
+        self.fits(&level.mesh, &level.tags)?;
+        self.split.new_corners(&level.mesh)?;
+        buffers.numbering = Numbering::in_buffers(&level.mesh, std::mem::take(&mut buffers.numbering));
+        let numbering = &buffers.numbering;
+        let count = self.split.new_vertices(&level.mesh, numbering);
+        if count > MAX_CORNERS {
+            return Err(NotAMesh::TooLarge.into());
+        }
+        let mut positions = room(std::mem::take(&mut buffers.positions), count);
+        let compact =
+            (route == Route::Fast).then(|| Compact::of(&Refinement::new(self.scheme, self.boundary))).flatten();
+        match compact {
+            Some(compact) => {
+                let left = self.gather(level, numbering, &compact, &mut positions);
+                self.by_rows(level, numbering, &left, &mut positions)?;
+            }
+            None => self.all_by_rows(level, numbering, &mut positions)?,
+        }
+        let faces = self.split.faces(&level.mesh, numbering, std::mem::take(&mut buffers.corners));
+        Ok(Refined { faces, positions })
+    }
+
+    /// The rows of all new points, in order: how each is made of the old ones.
+    ///
+    /// # Errors
+    /// As [`Refiner::step`].
+    pub fn rows(&self, mesh: &HalfEdgeMesh, tags: &Tags) -> Result<Vec<Row<u32, f64>>, NotRefinable> {
+        self.fits(mesh, tags)?;
+        let numbering = Numbering::of(mesh);
+        let refinement = Refinement::new(self.scheme, self.boundary);
+        let row = |point| refinement.row_of_birth(mesh, tags, self.split.birth(mesh, &numbering, point));
+        (0..self.split.new_vertices(mesh, &numbering)).map(|point| Ok(row(point)?)).collect()
+    }
+
+    fn all_by_rows<T: Coordinate>(
+        &self,
+        level: &Level<T>,
+        numbering: &Numbering,
+        positions: &mut [Point<T>],
+    ) -> Result<(), Obstacle> {
+        const RUN: usize = 1024;
+        positions.par_chunks_mut(RUN).enumerate().try_for_each_init(
+            || Refinement::new(self.scheme, self.boundary),
+            |refinement, (run, points)| {
+                points.iter_mut().enumerate().try_for_each(|(at, point)| {
+                    let birth = self.split.birth(&level.mesh, numbering, RUN * run + at);
+                    *point = applied(&refinement.row_of_birth(&level.mesh, &level.tags, birth)?, &level.positions);
+                    Ok(())
+                })
+            },
+        )
+    }
+
+    /// Some points by rows.
+    fn by_rows<T: Coordinate>(
+        &self,
+        level: &Level<T>,
+        numbering: &Numbering,
+        points: &[u32],
+        positions: &mut [Point<T>],
+    ) -> Result<(), Obstacle> {
+        let made: Vec<(u32, Point<T>)> = points
+            .par_iter()
+            .map_init(
+                || Refinement::new(self.scheme, self.boundary),
+                |refinement, point| {
+                    let birth = self.split.birth(&level.mesh, numbering, *point as usize);
+                    let row = refinement.row_of_birth(&level.mesh, &level.tags, birth)?;
+                    Ok((*point, applied(&row, &level.positions)))
+                },
+            )
+            .collect::<Result<_, Obstacle>>()?;
+        made.iter().for_each(|(point, position)| positions[*point as usize] = *position);
+        Ok(())
+    }
+
+    /// Gathers what is plain; gives the points that are left to the rows.
+    fn gather<T: Coordinate>(
+        &self,
+        level: &Level<T>,
+        numbering: &Numbering,
+        compact: &Compact<T>,
+        positions: &mut [Point<T>],
+    ) -> Vec<u32> {
+        let (mesh, old) = (&level.mesh, &level.positions);
+        if self.split == Split::Dual {
+            gather::corner_points(mesh, old, &compact.corner, positions);
+            let large = |face: &[u32]| compact.corner.get(face.len()).is_none_or(Option::is_none);
+            return corners_of(mesh, large);
+        }
+        let (at_vertices, rest) = positions.split_at_mut(mesh.vertices());
+        let (at_edges, in_faces) = rest.split_at_mut(numbering.edges());
+        gather::face_points(mesh, old, &compact.face, in_faces);
+        gather::edge_points(mesh, numbering, old, in_faces, &compact.edge, at_edges);
+        let mut left = gather::vertex_points(mesh, old, in_faces, &compact.vertex, at_vertices);
+        self.leave_special(level, numbering, &mut left);
+        self.leave_large_faces(mesh, numbering, compact, &mut left);
+        left
+    }
+
+    /// The points of the boundary and of creases.
+    fn leave_special<T>(&self, level: &Level<T>, numbering: &Numbering, left: &mut Vec<u32>) {
+        let (mesh, on_edges) = (&level.mesh, level.mesh.vertices() as u32);
+        let boundary = (0..mesh.twins().len()).filter(|h| mesh.twins()[*h] == NONE);
+        left.extend(boundary.flat_map(|h| [mesh.faces().corners()[h], on_edges + numbering.of_first(h as u32)]));
+        for (edge, _) in level.tags.creases() {
+            left.extend([mesh.origin(*edge), mesh.target(*edge), on_edges + numbering.of_first(*edge)]);
+        }
+        left.extend(level.tags.corners());
+    }
+
+    /// The points of faces beyond the table, and those of their edges and vertices, which may be made of them.
+    fn leave_large_faces<T>(
+        &self,
+        mesh: &HalfEdgeMesh,
+        numbering: &Numbering,
+        compact: &Compact<T>,
+        left: &mut Vec<u32>,
+    ) {
+        if self.split != Split::OneToN || mesh.faces().same_size() == Some(4) {
+            return;
+        }
+        let on_edges = mesh.vertices() as u32;
+        let in_faces = on_edges + numbering.edges() as u32;
+        for h in corners_of(mesh, |face| compact.face.get(face.len()).is_none_or(Option::is_none)) {
+            let number = numbering.of_corner(h, mesh.twins()[h as usize]);
+            left.extend([mesh.faces().corners()[h as usize], on_edges + number, in_faces + mesh.faces().face_of(h)]);
+        }
+    }
+}
+
+/// The corners of the faces for which `wanted` holds.
+fn corners_of(mesh: &HalfEdgeMesh, wanted: impl Fn(&[u32]) -> bool) -> Vec<u32> {
+    if mesh.faces().same_size() == Some(4) && !wanted(&[0; 4]) {
+        return Vec::new();
+    }
+    let faces = (0..mesh.faces().len()).filter(|face| wanted(mesh.faces().face(*face)));
+    faces.flat_map(|face| mesh.faces().range(face)).map(|corner| corner as u32).collect()
+}
+
+/// Room for this many points: the buffer, or fresh memory.
+fn room<T: Coordinate>(mut buffer: Vec<Point<T>>, length: usize) -> Vec<Point<T>> {
+    let zero = [T::default(); 3];
+    if buffer.capacity() < length {
+        return vec![zero; length];
+    }
+    buffer.resize(length, zero);
+    buffer
+}
+
+/// Row times positions, in f64. Products are added up in order of their size, so that the result does not know how vertices are
+/// numbered: two meshes that share a boundary get the same points there.
+pub fn applied<T: Coordinate>(row: &Row<u32, f64>, positions: &[Point<T>]) -> Point<T> {
+    let mut products: Vec<f64> = Vec::with_capacity(row.len());
+    [0, 1, 2].map(|axis| {
+        products.clear();
+        products.extend(row.iter().map(|(point, weight)| weight * positions[*point as usize][axis].to_f64()));
+        products.sort_unstable_by(f64::total_cmp);
+        T::from_f64(products.iter().sum())
+    })
+}
