@@ -1,7 +1,7 @@
 //! Does a step of refinement make the mesh that it should, by both routes, with creases and boundaries?
 #![allow(clippy::unwrap_used)]
 
-use eigenring::mesh::{Connectivity, Crease, Faces, HalfEdgeMesh, PolygonSoup, Tags, edge_between, shapes};
+use eigenring::mesh::{Connectivity, Crease, Faces, HalfEdgeMesh, LinkedMesh, PolygonSoup, Tags, edge_between, shapes};
 use eigenring::refine::{Level, NotRefinable, Refiner, Route, ULPS};
 use eigenring::scheme::{RuleBook, Scheme, catalogue};
 use std::collections::BTreeMap;
@@ -424,5 +424,97 @@ fn a_vertex_of_a_thousand_edges_is_refined() {
         let sum: f64 = centre.iter().map(|(_, weight)| weight).sum();
         assert!((sum - 1.0).abs() < 1e-13);
         assert!(new.positions.iter().flatten().all(|x| x.is_finite()));
+    }
+}
+
+/// A face as a cycle of names, from its least on.
+fn cycle(mut names: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+    let least = (0..names.len()).min_by_key(|at| &names[*at]).unwrap();
+    names.rotate_left(least);
+    names
+}
+
+/// New vertices by where they are born: the vertex, both ends of the edge, all corners of the face, in order.
+fn named_faces(faces: &Faces, names: &[Vec<u32>]) -> Vec<Vec<Vec<u32>>> {
+    let mut cycles: Vec<_> =
+        faces.iter().map(|face| cycle(face.iter().map(|v| names[*v as usize].clone()).collect())).collect();
+    cycles.sort();
+    cycles
+}
+
+fn sorted(mut name: Vec<u32>) -> Vec<u32> {
+    name.sort_unstable();
+    name
+}
+
+/// The names of the points that a step makes.
+fn birth_names(mesh: &HalfEdgeMesh, with_faces: bool) -> Vec<Vec<u32>> {
+    let mut names: Vec<Vec<u32>> = (0..mesh.vertices() as u32).map(|vertex| vec![vertex]).collect();
+    names.extend(mesh.edges().map(|h| sorted(vec![mesh.origin(h), mesh.target(h)])));
+    names.extend(mesh.faces().iter().filter(|_| with_faces).map(|face| sorted(face.to_vec())));
+    names
+}
+
+/// Splits every edge; gives the names of all vertices, and for each old face the half-edges that lead to its new vertices.
+fn split_all_edges(mesh: &mut LinkedMesh) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
+    let (vertices, edges, faces) = (mesh.vertices(), mesh.half_edges() as u32, mesh.face_edges().to_vec());
+    let mut names: Vec<Vec<u32>> = (0..vertices as u32).map(|vertex| vec![vertex]).collect();
+    for h in (0..edges).step_by(2) {
+        names.push(sorted(vec![mesh.origin(h), mesh.target(h)]));
+        mesh.split_edge(h).unwrap();
+    }
+    let leads_to_new = |h: &u32| mesh.target(*h) as usize >= vertices;
+    let around = faces.iter().map(|h| mesh.around_face(*h).into_iter().filter(leads_to_new).collect());
+    (names, around.collect())
+}
+
+#[test]
+fn loop_by_splitting_edges_and_faces_gives_the_same_connectivity() {
+    let (scheme, book) = open("loop");
+    let refiner = Refiner::new(&scheme, Some(&book)).unwrap();
+    for shape in triangle_shapes() {
+        let at = level(&shape);
+        let mut cut = LinkedMesh::from(&at.mesh);
+        let (names, around) = split_all_edges(&mut cut);
+        for edges in around {
+            // between the middles of neighbouring edges, three times around
+            for (h, g) in [(edges[0], edges[1]), (edges[1], edges[2]), (edges[2], edges[0])] {
+                let h = if cut.face(h) == cut.face(g) { h } else { last_to(&cut, g, cut.target(h)) };
+                cut.split_face(h, g).unwrap();
+            }
+        }
+        cut.validate().unwrap();
+        let new = refiner.step(&at, Route::Fast).unwrap();
+        assert_eq!(named_faces(&cut.faces(), &names), named_faces(new.mesh.faces(), &birth_names(&at.mesh, false)));
+    }
+}
+
+/// The half-edge in the face of g that leads to a vertex.
+fn last_to(mesh: &LinkedMesh, g: u32, vertex: u32) -> u32 {
+    mesh.around_face(g).into_iter().find(|h| mesh.target(*h) == vertex).unwrap()
+}
+
+#[test]
+fn catmull_clark_by_splitting_edges_and_faces_gives_the_same_connectivity() {
+    let (scheme, book) = open("catmull-clark");
+    let refiner = Refiner::new(&scheme, Some(&book)).unwrap();
+    for shape in polygon_shapes() {
+        let at = level(&shape);
+        let mut cut = LinkedMesh::from(&at.mesh);
+        let (mut names, around) = split_all_edges(&mut cut);
+        for (face, edges) in around.iter().enumerate() {
+            // an edge across the first corner, a vertex on it, and from there to all other middles
+            let across = cut.split_face(edges[0], edges[1]).unwrap();
+            cut.split_edge(across).unwrap();
+            names.push(sorted(at.mesh.faces().face(face).to_vec()));
+            let middle = cut.target(across);
+            for g in &edges[2..] {
+                let h = last_to(&cut, *g, middle);
+                cut.split_face(h, *g).unwrap();
+            }
+        }
+        cut.validate().unwrap();
+        let new = refiner.step(&at, Route::Fast).unwrap();
+        assert_eq!(named_faces(&cut.faces(), &names), named_faces(new.mesh.faces(), &birth_names(&at.mesh, true)));
     }
 }

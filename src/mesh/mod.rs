@@ -5,6 +5,7 @@
 
 mod faces;
 mod half_edge;
+mod linked;
 mod pairing;
 mod patch;
 pub mod shapes;
@@ -14,6 +15,7 @@ mod tags;
 
 pub use faces::{Faces, Sides};
 pub use half_edge::{HalfEdgeMesh, MAX_CORNERS, NONE};
+pub use linked::{LinkedMesh, NoCut};
 pub use pairing::NotAMesh;
 pub use patch::{Label, Lattice, Patch, PatchEdge, Site};
 pub use soup::{Crease, PolygonSoup};
