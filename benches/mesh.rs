@@ -8,7 +8,7 @@ use eigenring::scheme::{Scheme, catalogue};
 use std::hint::black_box;
 use std::time::Instant;
 
-type Done<T> = Result<T, Box<dyn std::error::Error>>;
+type Done<T> = Result<T, Box<dyn std::error::Error + Send + Sync>>;
 
 const FACES: usize = 10_000_000;
 

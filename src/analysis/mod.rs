@@ -10,6 +10,7 @@ pub mod exact;
 pub mod local;
 pub mod masks;
 pub mod neighbourhood;
+pub mod places;
 pub mod spectra;
 pub mod spectrum;
 

@@ -59,10 +59,21 @@ impl<'a> Spectra<'a> {
     /// # Errors
     /// When the valence is out of range or a weight has no value there.
     pub fn at(&self, valence: usize) -> Result<Spectrum, Obstacle> {
+        Ok(self.stages(valence)?.3)
+    }
+
+    /// The local matrix with its blocks, cores and spectrum.
+    pub(super) fn stages(&self, valence: usize) -> Result<Stages, Obstacle> {
         if !(3..=MAX_VALENCE).contains(&valence) {
             return Err(Obstacle::Limit(format!("the valence must be from 3 to {MAX_VALENCE}, not {valence}")));
         }
-        let blocks = Blocks::of(&LocalMatrix::build(&self.rows(valence), &self.influence)?);
-        Spectrum::of(&blocks, &Cores::of(&blocks))
+        let local = LocalMatrix::build(&self.rows(valence), &self.influence)?;
+        let blocks = Blocks::of(&local);
+        let cores = Cores::of(&blocks);
+        let spectrum = Spectrum::of(&blocks, &cores)?;
+        Ok((local, blocks, cores, spectrum))
     }
 }
+
+/// What the first stages of the pipeline give.
+pub(super) type Stages = (LocalMatrix, Blocks, Cores, Spectrum);
