@@ -1,9 +1,11 @@
 //! Which points are neighbours?
 //!
-//! Two kinds of mesh share one way of walking, over half-edges ([`Connectivity`]): a mesh of polygons ([`HalfEdgeMesh`])
-//! and the canonical patch around one extraordinary point, which extends as far as anybody walks ([`Patch`]).
+//! All kinds of mesh share one way of walking, over half-edges ([`Connectivity`]): a mesh of polygons ([`HalfEdgeMesh`]),
+//! the canonical patch around one extraordinary point, which extends as far as anybody walks ([`Patch`]), and that around a
+//! vertex on a boundary or crease ([`Fan`]).
 
 mod faces;
+mod fan;
 mod half_edge;
 mod pairing;
 mod patch;
@@ -11,6 +13,7 @@ mod soup;
 mod tags;
 
 pub use faces::{Faces, Sides};
+pub use fan::{Fan, FanKind};
 pub use half_edge::{HalfEdgeMesh, MAX_CORNERS, NONE};
 pub use pairing::NotAMesh;
 pub use patch::{Label, Lattice, Patch, PatchEdge, Site};
