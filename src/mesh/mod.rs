@@ -1,9 +1,11 @@
 //! Which points are neighbours?
 //!
-//! Two kinds of mesh share one way of walking, over half-edges ([`Connectivity`]): a mesh of polygons ([`HalfEdgeMesh`])
-//! and the canonical patch around one extraordinary point, which extends as far as anybody walks ([`Patch`]).
+//! All kinds of mesh share one way of walking, over half-edges ([`Connectivity`]): a mesh of polygons ([`HalfEdgeMesh`]),
+//! the canonical patch around one extraordinary point, which extends as far as anybody walks ([`Patch`]), and that around a
+//! vertex on a boundary or crease ([`Fan`]).
 
 mod faces;
+mod fan;
 mod half_edge;
 mod linked;
 mod pairing;
@@ -14,6 +16,7 @@ mod split;
 mod tags;
 
 pub use faces::{Faces, Sides};
+pub use fan::{Fan, FanKind};
 pub use half_edge::{HalfEdgeMesh, MAX_CORNERS, NONE};
 pub use linked::{LinkedMesh, NoCut};
 pub use pairing::NotAMesh;

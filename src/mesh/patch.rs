@@ -54,7 +54,7 @@ impl Lattice {
     }
 
     /// The label of a point given in the coordinates of a sector, as (shift of sector, i, j): unfolded until canonical.
-    fn unfold(self, mut i: i32, mut j: i32) -> (i32, i32, i32) {
+    pub(super) fn unfold(self, mut i: i32, mut j: i32) -> (i32, i32, i32) {
         let mut shift = 0;
         loop {
             match self {
@@ -67,6 +67,54 @@ impl Lattice {
                 Lattice::Dual if i < 0 => (i, j, shift) = (j, -1 - i, shift + 1),
                 _ => return (shift, i, j),
             }
+        }
+    }
+
+    /// Whether this label is that of a centre that is a point.
+    pub(super) fn is_centre(self, label: Label) -> bool {
+        self.has_centre() && label.i == 0 && label.j == 0
+    }
+
+    /// The other half of an edge; `shifted` names the sector some sectors on.
+    pub(super) fn twin(self, edge: PatchEdge, shifted: impl Fn(u32, i32) -> u32) -> PatchEdge {
+        let PatchEdge { origin, direction } = edge;
+        let directions = self.steps().len() as i64;
+        if self.is_centre(origin) {
+            return PatchEdge { origin: Label { sector: direction, i: 1, j: 0 }, direction: directions as u32 / 2 };
+        }
+        let (di, dj) = self.steps()[direction as usize];
+        let (shift, i, j) = self.unfold(origin.i + di, origin.j + dj);
+        if self.has_centre() && i == 0 && j == 0 {
+            return PatchEdge { origin: Label { sector: 0, i, j }, direction: origin.sector };
+        }
+        let back = (i64::from(direction) + directions / 2 - i64::from(shift)).rem_euclid(directions) as u32;
+        PatchEdge { origin: Label { sector: shifted(origin.sector, shift), i, j }, direction: back }
+    }
+
+    /// Where the step of a split on this lattice puts the point `label` of the refined patch.
+    pub(super) fn birth(self, label: Label) -> Site {
+        let Label { sector, i, j } = label;
+        if self.is_centre(label) {
+            return Site::Vertex(PatchEdge { origin: label, direction: 0 });
+        }
+        let from = |i: i32, j: i32, direction: u32| PatchEdge { origin: Label { sector, i, j }, direction };
+        match (self, i % 2 != 0, j % 2 != 0) {
+            (Lattice::Dual, odd_i, odd_j) => {
+                let direction = match (odd_i, odd_j) {
+                    (true, true) => 0,
+                    (false, true) => 1,
+                    (false, false) => 2,
+                    (true, false) => 3,
+                };
+                Site::Corner(from(i / 2, j / 2, direction))
+            }
+            (_, false, false) => Site::Vertex(from(i / 2, j / 2, 0)),
+            (Lattice::Triangles, true, false) => Site::Edge(from((i + 1) / 2, j / 2, 3)),
+            (Lattice::Triangles, false, true) => Site::Edge(from(i / 2, (j + 1) / 2, 4)),
+            (Lattice::Triangles, true, true) => Site::Edge(from((i + 1) / 2, (j - 1) / 2, 2)),
+            (Lattice::Quads, true, false) => Site::Edge(from((i + 1) / 2, j / 2, 2)),
+            (Lattice::Quads, false, true) => Site::Edge(from(i / 2, (j + 1) / 2, 3)),
+            (Lattice::Quads, true, true) => Site::Face(from((i + 1) / 2, (j + 1) / 2, 2)),
         }
     }
 }
@@ -93,8 +141,8 @@ impl Label {
 /// coordinates; at a centre that is a vertex the direction is the spoke.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct PatchEdge {
-    origin: Label,
-    direction: u32,
+    pub(super) origin: Label,
+    pub(super) direction: u32,
 }
 
 /// The place of the coarse patch that a point of the refined patch is born at.
@@ -131,7 +179,7 @@ impl Patch {
     }
 
     fn is_centre(&self, label: Label) -> bool {
-        self.lattice.has_centre() && label.i == 0 && label.j == 0
+        self.lattice.is_centre(label)
     }
 
     /// The point at coordinates (i, j) of a sector, which may reach into the sectors beside it.
@@ -169,34 +217,7 @@ impl Patch {
     /// Where the step of the scheme's split puts the point `label` of the refined patch: vertices keep their place on the
     /// lattice twice as fine, new points fill it.
     pub fn birth(&self, label: Label) -> Site {
-        let Label { sector, i, j } = label;
-        if self.is_centre(label) {
-            return Site::Vertex(self.edge(label, 0));
-        }
-        let from = |i: i32, j: i32, direction: u32| self.edge(Label { sector, i, j }, direction);
-        match (self.lattice, i % 2 != 0, j % 2 != 0) {
-            (Lattice::Dual, odd_i, odd_j) => {
-                let direction = match (odd_i, odd_j) {
-                    (true, true) => 0,
-                    (false, true) => 1,
-                    (false, false) => 2,
-                    (true, false) => 3,
-                };
-                Site::Corner(from(i / 2, j / 2, direction))
-            }
-            (_, false, false) => Site::Vertex(from(i / 2, j / 2, 0)),
-            (Lattice::Triangles, true, false) => Site::Edge(from((i + 1) / 2, j / 2, 3)),
-            (Lattice::Triangles, false, true) => Site::Edge(from(i / 2, (j + 1) / 2, 4)),
-            (Lattice::Triangles, true, true) => Site::Edge(from((i + 1) / 2, (j - 1) / 2, 2)),
-            (Lattice::Quads, true, false) => Site::Edge(from((i + 1) / 2, j / 2, 2)),
-            (Lattice::Quads, false, true) => Site::Edge(from(i / 2, (j + 1) / 2, 3)),
-            (Lattice::Quads, true, true) => Site::Face(from((i + 1) / 2, (j + 1) / 2, 2)),
-        }
-    }
-
-    /// The direction opposite to one at a regular point.
-    fn reversed(&self, direction: u32) -> i64 {
-        i64::from(direction) + self.lattice.steps().len() as i64 / 2
+        self.lattice.birth(label)
     }
 }
 
@@ -205,18 +226,7 @@ impl Connectivity for Patch {
     type Point = Label;
 
     fn twin(&self, edge: PatchEdge) -> PatchEdge {
-        let PatchEdge { origin, direction } = edge;
-        let directions = self.lattice.steps().len() as i64;
-        if self.is_centre(origin) {
-            return PatchEdge { origin: Label { sector: direction, i: 1, j: 0 }, direction: directions as u32 / 2 };
-        }
-        let (di, dj) = self.lattice.steps()[direction as usize];
-        let (shift, i, j) = self.lattice.unfold(origin.i + di, origin.j + dj);
-        if self.lattice.has_centre() && i == 0 && j == 0 {
-            return PatchEdge { origin: Label { sector: 0, i, j }, direction: origin.sector };
-        }
-        let back = (self.reversed(direction) - i64::from(shift)).rem_euclid(directions) as u32;
-        PatchEdge { origin: Label { sector: self.shifted(origin.sector, shift), i, j }, direction: back }
+        self.lattice.twin(edge, |sector, shift| self.shifted(sector, shift))
     }
 
     fn turn(&self, edge: PatchEdge) -> PatchEdge {
