@@ -7,6 +7,7 @@ pub mod blocks;
 pub mod charmap;
 pub mod cores;
 pub mod exact;
+pub mod limit;
 pub mod local;
 pub mod masks;
 pub mod neighbourhood;

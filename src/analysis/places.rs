@@ -7,8 +7,20 @@
 use super::masks::Mask;
 use super::spectra::Spectra;
 use super::spectrum::{NEAR, Spectrum};
-use crate::mesh::Label;
-use crate::refine::Obstacle;
+use crate::mesh::{Connectivity, FanKind, HalfEdgeMesh, Label, Lattice};
+use crate::refine::{Obstacle, lattice_of};
+use crate::scheme::{RuleBook, Scheme};
+
+/// A vertex, as far as its masks are concerned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Place {
+    /// Inside the mesh, with this valence; dual: the middle of a face of this many corners.
+    Inside(usize),
+    /// On a boundary or crease, at a corner, or where a crease ends.
+    Fan(FanKind),
+    /// A corner inside the mesh that fewer than two creases lead to.
+    Cone,
+}
 
 /// Weights on labelled points around a place.
 pub type LabelledMask = Vec<(Label, f64)>;
@@ -22,6 +34,80 @@ pub struct PlaceMasks {
     pub tangents: Result<[LabelledMask; 2], String>,
     /// The moduli by which the tangents and what is left beside them shrink in a step: lambda and mu.
     pub rates: Option<[f64; 2]>,
+}
+
+/// The masks of a scheme's places.
+pub struct Places<'a> {
+    spectra: Spectra<'a>,
+    lattice: Lattice,
+}
+
+impl<'a> Places<'a> {
+    /// Prepares the masks of a scheme with the rules of a boundary file.
+    ///
+    /// # Errors
+    /// When a weight has no value at the regular valence, or stencils reach too far.
+    pub fn new(scheme: &'a Scheme, _boundary: Option<&'a RuleBook>) -> Result<Places<'a>, Obstacle> {
+        Ok(Places { spectra: Spectra::new(scheme)?, lattice: lattice_of(scheme) })
+    }
+
+    /// The masks of a place.
+    ///
+    /// # Errors
+    /// When a weight has no value there, or the place is beyond a limit.
+    pub fn at(&self, place: Place) -> Result<PlaceMasks, Obstacle> {
+        match place {
+            Place::Inside(valence) => self.spectra.masks(valence),
+            Place::Fan(_) => Err(Obstacle::NoRule("vertex.crease")),
+            Place::Cone => Ok(cone()),
+        }
+    }
+
+    /// How many rings the neighbourhood of an extraordinary point has.
+    ///
+    /// # Errors
+    /// When a weight has no value.
+    pub fn reach(&self) -> Result<usize, Obstacle> {
+        let (orbits, _) = self.spectra.neighbourhoods(self.lattice.regular_valence() + 1)?;
+        let rings = orbits.iter().map(|(i, j)| self.lattice.ring(*i, *j)).max().unwrap_or(1);
+        Ok(rings.max(1) as usize)
+    }
+}
+
+/// The vertex of a mesh at a label around a place whose spokes are given. Straight on is half of the regular number of turns,
+/// clockwise; along the last spoke of a fan counter-clockwise, so that the way stays on the fan's side.
+pub(super) fn point_at(
+    mesh: &HalfEdgeMesh,
+    lattice: Lattice,
+    place: Place,
+    spokes: &[u32],
+    label: Label,
+) -> Option<u32> {
+    let spoke = *spokes.get(label.sector as usize)?;
+    if lattice == Lattice::Dual {
+        return (label.orbit() == (0, 0)).then(|| mesh.origin(spoke));
+    }
+    if label.i == 0 {
+        return Some(mesh.origin(spoke));
+    }
+    let half = lattice.regular_valence() / 2;
+    let last = matches!(place, Place::Fan(kind) if !kind.is_closed()) && label.sector as usize + 1 == spokes.len();
+    let turned = |edge: u32, turns: usize| {
+        (0..turns).fold(edge, |edge, _| if last { mesh.turn(edge) } else { mesh.turn_back(edge) })
+    };
+    let on = |edge: u32, steps: i32| (0..steps).fold(edge, |edge, _| turned(mesh.twin(edge), half));
+    let mut edge = on(spoke, label.i - 1);
+    if label.j > 0 {
+        edge = on(turned(mesh.twin(edge), half - 1), label.j - 1);
+    }
+    Some(mesh.target(edge))
+}
+
+/// The masks where a vertex stays and no rule tells what is around it.
+fn cone() -> PlaceMasks {
+    let centre = vec![(Label { sector: 0, i: 0, j: 0 }, 1.0)];
+    let why = "a corner inside the mesh with fewer than two creases has no tangent plane".to_string();
+    PlaceMasks { limit: Ok(centre), tangents: Err(why), rates: None }
 }
 
 impl Spectra<'_> {

@@ -25,6 +25,11 @@ impl Lattice {
         if self == Lattice::Triangles { 6 } else { 4 }
     }
 
+    /// The number of corners of its faces.
+    pub fn face_corners(self) -> usize {
+        if self == Lattice::Triangles { 3 } else { 4 }
+    }
+
     /// The unit steps in a sector's coordinates, counter-clockwise from its spoke.
     pub fn steps(self) -> &'static [(i32, i32)] {
         match self {

@@ -1,0 +1,293 @@
+//! Where does each vertex of a mesh go in the limit, and which way does the surface face there?
+//!
+//! The limit mask of its place gives the point, the tangent masks the normal (Halstead, Kass and DeRose 1993): at vertices inside
+//! the mesh, on boundaries and creases, at corners and darts. Masks come from the analysis, at each place that the mesh has. A mask holds where the
+//! mesh is like the canonical patch as far as the rules of its points look: where rules are compact and the mask lies on the faces around the vertex,
+//! these alone must be regular; else so must all vertices around it, out to the reach of the neighbourhood. Where
+//! they are not, and while creases that end are there, the mesh is refined first: an old vertex keeps its number and its limit.
+
+use super::places::{LabelledMask, Place, PlaceMasks, Places, point_at};
+use crate::mesh::{Connectivity, FanKind, HalfEdgeMesh, Lattice, Split, Tagged};
+use crate::refine::{Level, NotRefinable, Obstacle, Refiner, Route, lattice_of};
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+/// Limit points and normals of a mesh's vertices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LimitSurface {
+    /// The limit points.
+    pub positions: Vec<[f64; 3]>,
+    /// Unit normals, the outward ones where faces are counter-clockwise from outside; zero where there is none. Where several sides of creases meet, the
+    /// mean of their normals.
+    pub normals: Vec<[f64; 3]>,
+    /// Why vertices have no normal: the first of them, and how many.
+    pub without_normal: BTreeMap<String, (u32, usize)>,
+}
+
+/// Why a mesh has no limit points.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoLimit {
+    /// It can't be refined.
+    Refinement(NotRefinable),
+    /// A vertex has none.
+    Vertex(u32, String),
+}
+
+impl fmt::Display for NoLimit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoLimit::Refinement(wrong) => write!(f, "{wrong}"),
+            NoLimit::Vertex(vertex, why) => write!(f, "vertex {vertex} has no limit point: {why}"),
+        }
+    }
+}
+
+impl std::error::Error for NoLimit {}
+
+impl From<NotRefinable> for NoLimit {
+    fn from(wrong: NotRefinable) -> Self {
+        NoLimit::Refinement(wrong)
+    }
+}
+
+impl From<Obstacle> for NoLimit {
+    fn from(obstacle: Obstacle) -> Self {
+        NoLimit::Refinement(obstacle.into())
+    }
+}
+
+/// One side of a vertex, all round where no crease divides it: its place, and the half-edges that leave it, counter-clockwise.
+#[derive(Clone, Debug)]
+struct Sector {
+    place: Place,
+    spokes: Vec<u32>,
+}
+
+/// A scheme, ready to push meshes to the limit.
+pub struct Limits<'a> {
+    refiner: Refiner<'a>,
+    lattice: Lattice,
+    places: Places<'a>,
+    /// Whether masks look at the faces around a vertex only.
+    near: bool,
+    /// How many rings of vertices must be regular otherwise.
+    reach: usize,
+}
+
+impl<'a> Limits<'a> {
+    /// Prepares the masks of a refiner's scheme.
+    ///
+    /// # Errors
+    /// When a weight has no value at the regular valence, or stencils reach too far.
+    pub fn new(refiner: &Refiner<'a>) -> Result<Limits<'a>, Obstacle> {
+        let lattice = lattice_of(refiner.scheme());
+        let places = Places::new(refiner.scheme(), refiner.boundary())?;
+        let reach = places.reach()?;
+        Ok(Limits { refiner: refiner.clone(), lattice, places, near: refiner.is_compact(), reach })
+    }
+
+    /// The steps that a level is refined by before its masks are applied.
+    pub fn steps_before(&self, level: &Level<f64>) -> usize {
+        let ending = level.tags.most_steps().ceil() as usize;
+        let dual = self.refiner.split() == Split::Dual;
+        let sizes = usize::from(!dual && level.mesh.faces().same_size() != Some(self.lattice.face_corners() as u32));
+        let apart = if self.near || self.all_apart(level) { 0 } else { self.reach.ilog2() as usize + 1 };
+        ending.max(sizes) + apart + usize::from(dual)
+    }
+
+    /// Whether every vertex, and whatever is special, is alone as far as the masks reach.
+    fn all_apart(&self, level: &Level<f64>) -> bool {
+        let (regular, reach) = (self.lattice.regular_valence(), self.reach);
+        let special = |vertex: u32| {
+            let start = level.mesh.vertex_edges()[vertex as usize];
+            level.mesh.valence(start) != regular || level.mesh.boundary_at(start).is_some()
+        };
+        let special: Vec<bool> = (0..level.mesh.vertices() as u32).into_par_iter().map(special).collect();
+        let alone =
+            |vertex: u32| around(&level.mesh, vertex, reach).iter().all(|v| *v == vertex || !special[*v as usize]);
+        level.tags.is_empty() && (0..level.mesh.vertices() as u32).into_par_iter().all(alone)
+    }
+
+    /// The limit points and normals of a level's vertices; `done` is called for each step that it is refined by first.
+    ///
+    /// # Errors
+    /// When the level can't be refined, or a vertex has no limit point.
+    pub fn of(&self, level: &Level<f64>, done: &dyn Fn()) -> Result<LimitSurface, NoLimit> {
+        let mut refined: Option<Level<f64>> = None;
+        for _ in 0..self.steps_before(level) {
+            refined = Some(self.refiner.step(refined.as_ref().unwrap_or(level), Route::Fast)?);
+            done();
+        }
+        self.applied(refined.as_ref().unwrap_or(level), level)
+    }
+
+    fn applied(&self, at: &Level<f64>, level: &Level<f64>) -> Result<LimitSurface, NoLimit> {
+        let vertices = 0..level.mesh.vertices() as u32;
+        let faces = self.faces_of_vertices(level)?;
+        let sectors = |vertex: u32| match &faces {
+            Some(faces) => vec![central_face(&at.mesh, faces[vertex as usize])],
+            None => sectors(at, vertex),
+        };
+        let collect = |mut places: BTreeSet<Place>, vertex: u32| {
+            places.extend(sectors(vertex).into_iter().map(|sector| sector.place));
+            places
+        };
+        let join = |mut a: BTreeSet<Place>, mut b: BTreeSet<Place>| {
+            a.append(&mut b);
+            a
+        };
+        let places = vertices.clone().into_par_iter().fold(BTreeSet::new, collect).reduce(BTreeSet::new, join);
+        let mut masks = BTreeMap::new();
+        for place in places {
+            masks.insert(place, self.places.at(place)?);
+        }
+        let masked = Masked { at, lattice: self.lattice, masks };
+        let points: Vec<PointAndNormal> = vertices
+            .into_par_iter()
+            .map(|vertex| masked.point(&sectors(vertex)).map_err(|why| NoLimit::Vertex(vertex, why)))
+            .collect::<Result<_, _>>()?;
+        Ok(surface(points))
+    }
+
+    /// Dual: the face that each vertex becomes in one step, where the level that masks are applied to is one step after all others.
+    fn faces_of_vertices(&self, level: &Level<f64>) -> Result<Option<Vec<usize>>, NoLimit> {
+        if self.refiner.split() != Split::Dual {
+            return Ok(None);
+        }
+        let boundary = |(_, h): &(usize, &u32)| level.mesh.boundary_at(**h).is_some();
+        if let Some((vertex, _)) = level.mesh.vertex_edges().iter().enumerate().find(boundary) {
+            let why = "it lies on the boundary, which recedes under a dual split".to_string();
+            return Err(NoLimit::Vertex(vertex as u32, why));
+        }
+        let before = level.mesh.faces().len() + level.mesh.edge_count();
+        Ok(Some((before..before + level.mesh.vertices()).collect()))
+    }
+}
+
+/// A level with the masks of its places.
+struct Masked<'m> {
+    at: &'m Level<f64>,
+    lattice: Lattice,
+    masks: BTreeMap<Place, PlaceMasks>,
+}
+
+/// A limit point, and the normal or why there is none.
+type PointAndNormal = ([f64; 3], Result<[f64; 3], String>);
+
+impl Masked<'_> {
+    fn point(&self, sectors: &[Sector]) -> Result<PointAndNormal, String> {
+        let first = sectors.first().ok_or("it belongs to no face")?;
+        let limit = self.masks[&first.place].limit.as_ref().map_err(Clone::clone)?;
+        let position = self.sum(first, limit, [0.0; 3])?;
+        let mut normal = [0.0; 3];
+        for sector in sectors {
+            match self.normal(sector) {
+                Ok(own) => normal = [0, 1, 2].map(|axis| normal[axis] + own[axis]),
+                Err(why) => return Ok((position, Err(why))),
+            }
+        }
+        Ok((position, unit(normal, 1e-12).ok_or_else(|| "the normals of its sides cancel out".to_string())))
+    }
+
+    fn normal(&self, sector: &Sector) -> Result<[f64; 3], String> {
+        let tangents = self.masks[&sector.place].tangents.as_ref().map_err(Clone::clone)?;
+        let origin = self.at.positions[self.at.mesh.origin(sector.spokes[0]) as usize];
+        let [a, b] = [self.sum(sector, &tangents[0], origin)?, self.sum(sector, &tangents[1], origin)?];
+        let scale = (dot(a, a) * dot(b, b)).sqrt();
+        unit(cross(a, b), 1e-12 * scale).ok_or_else(|| "its tangents are parallel or zero for these points".to_string())
+    }
+
+    /// A mask applied to the points around a sector's vertex, less an origin.
+    fn sum(&self, sector: &Sector, mask: &LabelledMask, origin: [f64; 3]) -> Result<[f64; 3], String> {
+        let mut sum = [0.0; 3];
+        for (label, weight) in mask {
+            let point = point_at(&self.at.mesh, self.lattice, sector.place, &sector.spokes, *label);
+            let position = self.at.positions[point.ok_or("its mask reaches beyond the face")? as usize];
+            for axis in 0..3 {
+                sum[axis] += weight * (position[axis] - origin[axis]);
+            }
+        }
+        Ok(sum)
+    }
+}
+
+fn surface(points: Vec<PointAndNormal>) -> LimitSurface {
+    let mut surface = LimitSurface::default();
+    for (vertex, (position, normal)) in points.into_iter().enumerate() {
+        surface.positions.push(position);
+        surface.normals.push(normal.unwrap_or_else(|why| {
+            surface.without_normal.entry(why).or_insert((vertex as u32, 0)).1 += 1;
+            [0.0; 3]
+        }));
+    }
+    surface
+}
+
+/// The corners of a face as the spokes of its middle.
+fn central_face(mesh: &HalfEdgeMesh, face: usize) -> Sector {
+    let range = mesh.faces().range(face);
+    Sector { place: Place::Inside(range.len()), spokes: range.map(|h| h as u32).collect() }
+}
+
+/// The sides of a vertex.
+fn sectors(at: &Level<f64>, vertex: u32) -> Vec<Sector> {
+    let start = at.mesh.vertex_edges()[vertex as usize];
+    let tagged = Tagged { mesh: &at.mesh, tags: &at.tags, beyond: 0.0 };
+    if at.tags.is_empty() && at.mesh.twins()[start as usize] != crate::mesh::NONE {
+        let spokes = at.mesh.around_vertex(start);
+        return vec![Sector { place: Place::Inside(spokes.len()), spokes }];
+    }
+    let sharp = tagged.sharp_spokes(start);
+    let corner = tagged.is_corner(start) || sharp.len() > 2;
+    let Some(first) = sharp.first() else {
+        let spokes = at.mesh.around_vertex(start);
+        let place = if corner { Place::Cone } else { Place::Inside(spokes.len()) };
+        return vec![Sector { place, spokes }];
+    };
+    let spokes = tagged.around_vertex(*first);
+    if sharp.len() == 1 {
+        let faces = spokes.len();
+        return vec![Sector { place: if corner { Place::Cone } else { Place::Fan(FanKind::Dart { faces }) }, spokes }];
+    }
+    let mut sides = Vec::new();
+    let mut from = 0;
+    for to in (1..=spokes.len()).filter(|at| *at == spokes.len() || tagged.is_sharp(spokes[*at])) {
+        let faces = to - from;
+        let side: Vec<u32> = (from..=to).map(|at| spokes[at % spokes.len()]).collect();
+        if tagged.has_face(side[0]) {
+            let kind = if corner { FanKind::Corner { faces } } else { FanKind::Crease { faces } };
+            sides.push(Sector { place: Place::Fan(kind), spokes: side });
+        }
+        from = to;
+    }
+    sides
+}
+
+/// The vertices within some rings of faces around one.
+fn around(mesh: &HalfEdgeMesh, vertex: u32, rings: usize) -> BTreeSet<u32> {
+    let mut all = BTreeSet::from([vertex]);
+    let mut newest = vec![vertex];
+    for _ in 0..rings {
+        let starts = newest.iter().map(|vertex| mesh.vertex_edges()[*vertex as usize]);
+        let spokes = starts.flat_map(|start| mesh.around_vertex(start)).filter(|spoke| mesh.has_face(*spoke));
+        let corners: Vec<u32> =
+            spokes.flat_map(|spoke| mesh.faces().face(mesh.faces().face_of(spoke) as usize).to_vec()).collect();
+        newest = corners.into_iter().filter(|vertex| all.insert(*vertex)).collect();
+    }
+    all
+}
+
+pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// The vector over its length, where that is larger than a bound.
+fn unit(v: [f64; 3], least: f64) -> Option<[f64; 3]> {
+    let length = dot(v, v).sqrt();
+    (length > least).then(|| v.map(|x| x / length))
+}
