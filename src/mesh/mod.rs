@@ -5,8 +5,10 @@
 
 mod faces;
 mod half_edge;
+pub mod io;
 mod pairing;
 mod patch;
+mod repair;
 mod soup;
 mod tags;
 
@@ -14,6 +16,7 @@ pub use faces::{Faces, Sides};
 pub use half_edge::{HalfEdgeMesh, MAX_CORNERS, NONE};
 pub use pairing::NotAMesh;
 pub use patch::{Label, Lattice, Patch, PatchEdge, Site};
+pub use repair::{Dropped, Repair, drop_isolated, split_non_manifold};
 pub use soup::{Crease, PolygonSoup};
 pub use tags::{BadTag, Tagged, Tags, edge_between, first_corner};
 
