@@ -73,20 +73,22 @@ pub(super) fn check(vertices: usize, faces: &Faces) -> Result<(), NotAMesh> {
         if let Some(corner) = face.iter().find(|corner| **corner as usize >= vertices) {
             return Err(NotAMesh::Corner(index, *corner as usize));
         }
-        let repeats = match face {
-            [a, b, c] => a == b || b == c || c == a,
-            _ => {
-                sorted.clear();
-                sorted.extend_from_slice(face);
-                sorted.sort_unstable();
-                sorted.windows(2).any(|pair| pair[0] == pair[1])
-            }
-        };
-        if face.len() < 3 || repeats {
+        if face.len() < 3 || repeats(face, &mut sorted) {
             return Err(NotAMesh::Face(index));
         }
     }
     Ok(())
+}
+
+/// Whether a face has a corner twice. Its corners are sorted in `sorted`.
+pub(super) fn repeats(face: &[u32], sorted: &mut Vec<u32>) -> bool {
+    if let [a, b, c] = face {
+        return a == b || b == c || c == a;
+    }
+    sorted.clear();
+    sorted.extend_from_slice(face);
+    sorted.sort_unstable();
+    sorted.windows(2).any(|pair| pair[0] == pair[1])
 }
 
 /// The half-edges between the same two vertices, group by group.
