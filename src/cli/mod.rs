@@ -6,7 +6,10 @@
 mod analyze;
 mod catalogue;
 mod matrix;
+mod memory;
+mod mesh_file;
 mod open;
+mod refine;
 mod valences;
 
 use clap::{Parser, Subcommand};
@@ -22,6 +25,8 @@ const EXAMPLES: &str = "Examples:
   eigenring schemes loop                           one of their files, ready to copy and edit
   eigenring new my-scheme --like loop              start a scheme file
   eigenring matrix loop --valence 5 --block 1      a block of the local subdivision matrix
+  eigenring refine loop in.obj -o out.ply -l 3     a mesh, refined three times
+  eigenring limit loop in.obj -o out.ply           its vertices on the limit surface, with normals
 
 Exit status: 0 done, 2 bad usage or bad input (1 is kept for checks that say no).";
 
@@ -43,6 +48,10 @@ enum Command {
     New(catalogue::New),
     /// Print the local subdivision matrix of a scheme, or a block of it
     Matrix(matrix::Matrix),
+    /// Refine a mesh
+    Refine(refine::Refine),
+    /// Push the vertices of a mesh to the limit surface, with normals
+    Limit(refine::Limit),
 }
 
 /// Why a command could not be carried out.
@@ -84,6 +93,8 @@ pub(crate) fn run() -> ExitCode {
         Command::Schemes(command) => command.run(),
         Command::New(command) => command.run(),
         Command::Matrix(command) => command.run(),
+        Command::Refine(command) => command.run(),
+        Command::Limit(command) => command.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -92,6 +103,11 @@ pub(crate) fn run() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Says something on standard error, beside the result; that nobody listens is no fault.
+pub(crate) fn say(text: &str) {
+    let _ = writeln!(io::stderr(), "{text}");
 }
 
 /// Prints to standard output; a reader that has gone away ends the printing quietly.

@@ -3,7 +3,7 @@
 use super::{Failure, failure};
 use eigenring::fault::nearest;
 use eigenring::refine;
-use eigenring::scheme::{MAX_FILE_BYTES, RuleSum, Scheme, catalogue};
+use eigenring::scheme::{MAX_FILE_BYTES, RuleBook, RuleSum, Scheme, catalogue};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -26,6 +26,14 @@ pub(crate) fn open(name: &str, settings: &[String]) -> Result<Scheme, Failure> {
         scheme.set(parameter.trim(), value.trim()).map_err(failure)?;
     }
     Ok(scheme)
+}
+
+/// The rules of the first boundary file that a scheme names.
+pub(crate) fn boundary_of(scheme: &Scheme) -> Result<Option<RuleBook>, Failure> {
+    let Some(name) = scheme.boundary.first() else { return Ok(None) };
+    let book = catalogue::boundary(name, &scheme.mesh);
+    let unknown = || failure(format!("{}: there is no boundary file `{name}`", scheme.book.title));
+    Ok(Some(book.ok_or_else(unknown)??))
 }
 
 /// Opens a scheme and checks it at the valences asked for.

@@ -7,6 +7,7 @@ mod births;
 mod compact;
 mod exact_weights;
 mod gather;
+mod growth;
 mod names;
 mod regular;
 mod stencil;
@@ -15,6 +16,7 @@ mod symmetry;
 
 pub use exact_weights::{Count, EnclosedWeights, ExactWeights};
 pub use gather::{Coordinate, Point};
+pub use growth::Counts;
 pub use names::OrbitNames;
 pub use regular::{PatchRows, RegularStencils};
 pub use stencil::Use;

@@ -1,7 +1,7 @@
 //! How do files come onto the disk whole or not at all?
 
 use std::fs;
-use std::io;
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Writes a file beside its place and renames it there, so that nobody ever sees half of it.
@@ -10,6 +10,22 @@ use std::path::{Path, PathBuf};
 /// Those of the file system; the old file is then still there, and no temporary one.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_all_whole(&[(path.to_path_buf(), bytes)]).map_err(|(_, error)| error)
+}
+
+/// Writes a file piece by piece beside its place, and renames it there when `fill` is done.
+///
+/// # Errors
+/// Those of the file system and of `fill`; the old file is then still there, and no temporary one.
+pub fn write_in_pieces<R>(path: &Path, fill: impl FnOnce(&mut BufWriter<fs::File>) -> io::Result<R>) -> io::Result<R> {
+    let beside = beside(path)?;
+    let write = || {
+        let mut file = BufWriter::with_capacity(1 << 20, fs::File::create(&beside)?);
+        let result = fill(&mut file)?;
+        file.flush()?;
+        fs::rename(&beside, path)?;
+        Ok(result)
+    };
+    write().inspect_err(|_| fs::remove_file(&beside).unwrap_or_default())
 }
 
 /// Writes files beside their places, and renames them there when all are written.

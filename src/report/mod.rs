@@ -17,7 +17,7 @@ mod tables;
 mod terminal;
 
 pub use csv::csv;
-pub use files::{write_all_whole, write_whole};
+pub use files::{write_all_whole, write_in_pieces, write_whole};
 pub use latex::latex;
 pub use markdown::markdown;
 pub use model::Report;

@@ -1,0 +1,263 @@
+//! `refine` and `limit`: what becomes of this mesh?
+
+use super::analyze::explain;
+use super::mesh_file::{Loaded, Reading, check_destination, creases_of, save, statistics};
+use super::open::{boundary_of, open_checked};
+use super::{Failure, failure, memory, say};
+use clap::{Args, ValueEnum};
+use eigenring::analysis::limit::{LimitSurface, Limits, NoLimit};
+use eigenring::analysis::local::MAX_VALENCE;
+use eigenring::mesh::io::{Coordinates, Output};
+use eigenring::mesh::{Connectivity, HalfEdgeMesh};
+use eigenring::refine::{Buffers, Coordinate, Counts, Level, NotRefinable, Obstacle, Refined, Refiner, Route};
+use eigenring::scheme::Scheme;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Refines a mesh: OBJ, PLY, OFF or STL in; these or binary glTF out.
+#[derive(Args)]
+#[command(
+    after_help = "Creases are read from OBJ lines such as `t crease 1/2 3.5`: the edge between vertices 1 and 2, \
+    for three and a half steps. A boundary needs the boundary file that the scheme names.\n\n\
+    Examples:\n  eigenring refine loop in.obj -o out.ply --levels 3\n  \
+    eigenring refine catmull-clark in.obj -o out.glb --levels 2 --to-limit\n  \
+    eigenring refine catmull-clark in.off -o out.obj --crease-angle 40 --boundary corner"
+)]
+pub(crate) struct Refine {
+    #[command(flatten)]
+    job: Job,
+    /// The number of steps
+    #[arg(long, short, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=40))]
+    levels: u8,
+    /// Push the vertices of the last level to the limit, with normals
+    #[arg(long)]
+    to_limit: bool,
+}
+
+/// Pushes the vertices of a mesh to the limit surface, with normals.
+#[derive(Args)]
+#[command(
+    after_help = "Limit points and normals come from the masks of the analysis. Where there is no tangent plane the \
+    normal is zero, and the reason is told.\n\n\
+    Examples:\n  eigenring limit loop in.obj -o out.ply\n  eigenring limit catmull-clark in.obj -o out.glb --levels 3"
+)]
+pub(crate) struct Limit {
+    #[command(flatten)]
+    job: Job,
+    /// The number of steps that the mesh is refined by first
+    #[arg(long, short, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=40))]
+    levels: u8,
+}
+
+#[derive(Args)]
+struct Job {
+    /// A scheme of the catalogue, or the path of a scheme file
+    scheme: String,
+    /// The mesh: OBJ, PLY, OFF or STL
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    /// The file to be written: OBJ, PLY, OFF, STL or GLB
+    #[arg(long, short, value_name = "OUT")]
+    out: PathBuf,
+    /// Set a parameter of the scheme, for example w=1/32; may be given several times
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    #[command(flatten)]
+    reading: Reading,
+    /// The number of threads [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Numbers of 32 or 64 bits
+    #[arg(long, value_enum, default_value = "double")]
+    precision: Precision,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Precision {
+    /// 32 bits
+    Single,
+    /// 64 bits
+    Double,
+}
+
+impl Refine {
+    pub(crate) fn run(self) -> Result<(), Failure> {
+        self.job.run(self.levels.into(), self.to_limit)
+    }
+}
+
+impl Limit {
+    pub(crate) fn run(self) -> Result<(), Failure> {
+        self.job.run(self.levels.into(), true)
+    }
+}
+
+impl Job {
+    fn run(&self, levels: usize, to_limit: bool) -> Result<(), Failure> {
+        check_destination(&self.out)?;
+        let loaded = self.reading.load(&self.input)?;
+        say(&statistics("read", &loaded.mesh));
+        let threads = self.threads.map_or(0, usize::from);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.map_err(|error| failure(format!("{threads} threads can't be started: {error}")))?;
+        let valences = valences_of(&loaded.mesh);
+        let (scheme, _) = open_checked(&self.scheme, &self.set, &valences)?;
+        pool.install(|| match self.precision {
+            Precision::Single => self.work::<f32>(&scheme, loaded, levels, to_limit),
+            Precision::Double => self.work::<f64>(&scheme, loaded, levels, to_limit),
+        })
+    }
+
+    fn work<T: Coordinate>(&self, scheme: &Scheme, loaded: Loaded, levels: usize, to_limit: bool) -> Result<(), Failure>
+    where
+        for<'a> &'a [[T; 3]]: Into<Coordinates<'a>>,
+    {
+        let book = boundary_of(scheme)?;
+        let refiner = Refiner::new(scheme, book.as_ref()).map_err(|wrong| refused(scheme, wrong))?;
+        refiner.fits(&loaded.mesh, &loaded.tags).map_err(|wrong| refused(scheme, wrong))?;
+        check_size::<T>(&refiner, &loaded.mesh, levels, to_limit)?;
+        let start = Instant::now();
+        let positions = loaded.positions.iter().map(|p| p.map(T::from_f64)).collect();
+        let mut at = Level { mesh: loaded.mesh, positions, tags: loaded.tags };
+        let bar = progress(levels, Counts::of(&at.mesh).faces << (2 * levels as u32).min(100));
+        // of the last step no mesh is needed, unless something is to be done with it
+        let whole_steps = if to_limit || !at.tags.is_empty() { levels } else { levels.saturating_sub(1) };
+        let mut buffers = Buffers::default();
+        for _ in 0..whole_steps {
+            let next = refiner.step_in(&at, Route::Fast, &mut buffers).map_err(|wrong| refused(scheme, wrong))?;
+            buffers = Buffers::default();
+            at = next;
+            bar.inc(1);
+        }
+        if to_limit {
+            self.write_limit::<T>(scheme, &refiner, at, start, &bar)
+        } else if whole_steps < levels {
+            let Refined { faces, positions } =
+                refiner.last_step(&at, Route::Fast).map_err(|wrong| refused(scheme, wrong))?;
+            drop(at);
+            bar.finish_and_clear();
+            say(&made("refined", positions.len(), faces.len(), start.elapsed()));
+            save(&self.out, &Output::new(positions.as_slice(), &faces))
+        } else {
+            bar.finish_and_clear();
+            say(&statistics("refined", &at.mesh));
+            say(&made("refined", at.positions.len(), at.mesh.faces().len(), start.elapsed()));
+            let (creases, corners) = (creases_of(&at.mesh, &at.tags), at.tags.corners());
+            save(&self.out, &Output::new(at.positions.as_slice(), at.mesh.faces()).tags(&creases, corners))
+        }
+    }
+
+    fn write_limit<T: Coordinate>(
+        &self,
+        scheme: &Scheme,
+        refiner: &Refiner,
+        at: Level<T>,
+        start: Instant,
+        bar: &ProgressBar,
+    ) -> Result<(), Failure>
+    where
+        for<'a> &'a [[T; 3]]: Into<Coordinates<'a>>,
+    {
+        let limits = Limits::new(refiner).map_err(|obstacle| explain(scheme, obstacle))?;
+        let positions = at.positions.iter().map(|p| p.map(T::to_f64)).collect();
+        let at = Level { mesh: at.mesh, positions, tags: at.tags };
+        let more = limits.steps_before(&at);
+        check_size::<f64>(refiner, &at.mesh, more, true)?;
+        bar.inc_length(more as u64);
+        let surface = limits.of(&at, &|| bar.inc(1)).map_err(|wrong| no_limit(scheme, wrong))?;
+        bar.finish_and_clear();
+        say(&statistics("limit", &at.mesh));
+        say(&made("pushed to the limit", surface.positions.len(), at.mesh.faces().len(), start.elapsed()));
+        say_without_normal(&surface);
+        let positions: Vec<[T; 3]> = surface.positions.iter().map(|p| p.map(T::from_f64)).collect();
+        let normals: Vec<[T; 3]> = surface.normals.iter().map(|n| n.map(T::from_f64)).collect();
+        save(&self.out, &Output::new(positions.as_slice(), at.mesh.faces()).normals(normals.as_slice()))
+    }
+}
+
+/// The valences, and sizes of faces, of a mesh that rules are told around: the smallest so many.
+pub(crate) fn valences_of(mesh: &HalfEdgeMesh) -> Vec<usize> {
+    const CHECKED: usize = 40;
+    let inside = mesh.vertex_edges().iter().filter(|h| mesh.boundary_at(**h).is_none());
+    let valences = inside.map(|h| mesh.valence(*h)).chain(mesh.faces().iter().map(<[u32]>::len));
+    let valences: BTreeSet<usize> = valences.filter(|n| (3..=MAX_VALENCE).contains(n)).collect();
+    valences.into_iter().take(CHECKED).collect()
+}
+
+/// Checks, before starting, that indices and memory suffice for the last of some steps.
+fn check_size<T: Coordinate>(
+    refiner: &Refiner,
+    mesh: &HalfEdgeMesh,
+    levels: usize,
+    to_limit: bool,
+) -> Result<(), Failure> {
+    let mut counts = Counts::of(mesh);
+    let (mut most, mut fits) = (0, 0);
+    let available = memory::available();
+    for level in 1..=levels {
+        let last = if level == levels && to_limit { counts.after(refiner.split()).bytes_of_mesh::<f64>() } else { 0 };
+        most = most.max(counts.bytes_of_step::<T>(refiner.split()) + last);
+        counts = counts.after(refiner.split());
+        if counts.can_be_numbered() && available.is_none_or(|available| most <= available) {
+            fits = level;
+        }
+    }
+    let help = format!("--levels {fits} fits");
+    if !counts.can_be_numbered() {
+        let limit = eigenring::mesh::MAX_CORNERS;
+        let message =
+            format!("{levels} steps make {} faces with {} corners, more than {limit}", counts.faces, counts.corners);
+        return Err(failure(format!("{message}\n  help: {help}")));
+    }
+    let what = format!("a mesh of {} faces after {levels} steps", counts.faces);
+    memory::check(most, &what, &help)
+}
+
+/// A bar on a terminal, when there will be much to do.
+fn progress(levels: usize, faces: u128) -> ProgressBar {
+    if faces < 2_000_000 {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(levels as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} step {pos} of {len}, {elapsed}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}
+
+fn made(what: &str, vertices: usize, faces: usize, time: Duration) -> String {
+    let (seconds, millions) = (time.as_secs_f64(), faces as f64 / 1e6);
+    let speed =
+        if millions > 0.1 { format!(", {:.1} million faces a second", millions / seconds) } else { String::new() };
+    format!("{what}: {vertices} vertices, {faces} faces in {seconds:.3} s{speed}")
+}
+
+fn say_without_normal(surface: &LimitSurface) {
+    for (why, (first, count)) in &surface.without_normal {
+        let others = if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };
+        say(&format!("note: no normal at vertex {first}{others}: {why}"));
+    }
+}
+
+/// Why a mesh can't be refined, in words that help.
+pub(crate) fn refused(scheme: &Scheme, wrong: NotRefinable) -> Failure {
+    match wrong {
+        NotRefinable::Obstacle(Obstacle::NoRule(rule)) => failure(format!(
+            "{} has no rule [{rule}], which this mesh needs: it has a boundary or a crease\n  \
+            help: name a file of boundary rules in the scheme file, boundary = [\"cubic\"], or close the mesh",
+            scheme.book.title
+        )),
+        NotRefinable::Obstacle(obstacle) => explain(scheme, obstacle),
+        other => failure(format!("{}: {other}", scheme.book.title)),
+    }
+}
+
+pub(crate) fn no_limit(scheme: &Scheme, wrong: NoLimit) -> Failure {
+    match wrong {
+        NoLimit::Refinement(wrong) => refused(scheme, wrong),
+        NoLimit::Vertex(..) => failure(format!("{}: {wrong}", scheme.book.title)),
+    }
+}

@@ -1,0 +1,98 @@
+//! How large does a mesh become, and how much memory does that take?
+//!
+//! Known before the first step: each split turns vertices, edges and faces into so many of each.
+
+use super::Coordinate;
+use crate::mesh::{HalfEdgeMesh, MAX_CORNERS, Split};
+
+/// The parts of a mesh, counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counts {
+    /// Vertices.
+    pub vertices: u128,
+    /// Edges.
+    pub edges: u128,
+    /// Faces.
+    pub faces: u128,
+    /// Corners of faces.
+    pub corners: u128,
+}
+
+impl Counts {
+    /// Those of a mesh.
+    pub fn of(mesh: &HalfEdgeMesh) -> Counts {
+        let [vertices, edges, faces, corners] =
+            [mesh.vertices(), mesh.edge_count(), mesh.faces().len(), mesh.twins().len()].map(|count| count as u128);
+        Counts { vertices, edges, faces, corners }
+    }
+
+    /// Those after a step; for a dual split of a mesh with a boundary, which recedes, an upper bound.
+    #[must_use]
+    pub fn after(self, split: Split) -> Counts {
+        let Counts { vertices, edges, faces, corners } = self;
+        match split {
+            Split::OneToFour => Counts {
+                vertices: vertices + edges,
+                edges: 2 * edges + corners,
+                faces: 4 * faces,
+                corners: 4 * corners,
+            },
+            Split::OneToN => Counts {
+                vertices: vertices + edges + faces,
+                edges: 2 * edges + corners,
+                faces: corners,
+                corners: 4 * corners,
+            },
+            Split::Dual => {
+                Counts { vertices: corners, edges: 2 * corners, faces: vertices + edges + faces, corners: 4 * corners }
+            }
+        }
+    }
+
+    /// Whether 32 bits number its corners.
+    pub fn can_be_numbered(self) -> bool {
+        self.corners <= MAX_CORNERS as u128 && self.vertices <= MAX_CORNERS as u128
+    }
+
+    /// The bytes of its faces and points.
+    pub fn bytes_of_faces<T: Coordinate>(self) -> u128 {
+        4 * self.corners + 3 * size_of::<T>() as u128 * self.vertices
+    }
+
+    /// The bytes of its mesh and points: twins, and a half-edge for each vertex, besides.
+    pub fn bytes_of_mesh<T: Coordinate>(self) -> u128 {
+        self.bytes_of_faces::<T>() + 4 * self.corners + 4 * self.vertices
+    }
+
+    /// The most bytes that are in use at one time during a step: the old mesh, the numbers of its edges, and the new faces and points.
+    pub fn bytes_of_step<T: Coordinate>(self, split: Split) -> u128 {
+        let numbering = 4 * self.corners + 4 * self.edges;
+        self.bytes_of_mesh::<T>() + numbering + self.after(split).bytes_of_faces::<T>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Numbering, shapes};
+
+    #[test]
+    fn counts_are_those_of_the_meshes_that_splits_make() {
+        let shapes = [shapes::torus(4, 5, true), shapes::many_valences(), shapes::tube(3, 4, true), shapes::prism(7)];
+        for (index, shape) in shapes.iter().enumerate() {
+            for split in [Split::OneToFour, Split::OneToN, Split::Dual] {
+                let mut mesh = HalfEdgeMesh::new(shape.positions.len(), shape.faces.clone()).unwrap();
+                if (split == Split::OneToFour && index == 3) || (split == Split::Dual && !mesh.is_closed()) {
+                    continue;
+                }
+                for _ in 0..2 {
+                    let expected = Counts::of(&mesh).after(split);
+                    let numbering = Numbering::of(&mesh);
+                    let faces = split.faces(&mesh, &numbering, Vec::new());
+                    mesh = split.mesh(&mesh, &numbering, faces, Default::default());
+                    assert_eq!(Counts::of(&mesh), expected, "{split:?}, shape {index}");
+                }
+            }
+        }
+    }
+}
