@@ -4,12 +4,14 @@
 //! the local subdivision matrix; rows times positions are the refined mesh.
 
 mod exact_weights;
+mod fan_rows;
 mod names;
 mod regular;
 mod stencil;
 mod symmetry;
 
 pub use exact_weights::{Count, EnclosedWeights, ExactWeights};
+pub use fan_rows::FanRows;
 pub use names::OrbitNames;
 pub use regular::{PatchRows, RegularStencils};
 pub use stencil::Use;
@@ -159,6 +161,11 @@ impl<'a, W: Field> Refinement<'a, W> {
     /// The scheme's rules, with weights from elsewhere than its formulas alone.
     pub fn weighed(scheme: &'a Scheme, weigher: impl Weigher<W> + 'a) -> Self {
         Refinement { scheme, boundary: None, weigher: Box::new(weigher), terms: RefCell::new(HashMap::new()) }
+    }
+
+    /// The same with the rules of a boundary file.
+    pub fn with_boundary(self, book: &'a RuleBook) -> Self {
+        Refinement { boundary: Some(book), ..self }
     }
 
     /// The scheme that is refined with.
