@@ -45,14 +45,16 @@ impl<N: Unit> Cores<N> {
         self.cores[core].iter().copied().filter(|node| node.acts_on(part)).collect()
     }
 
-    /// The nodes that the core is made of, through any number of steps: where left vectors of its eigenvalues live.
-    pub fn below(&self, core: usize, part: usize) -> Vec<N> {
-        (0..self.cores.len()).filter(|other| self.depends[core][*other]).flat_map(|c| self.nodes(c, part)).collect()
+    /// The nodes that the cores are made of, through any number of steps: where left vectors of their eigenvalues live.
+    pub fn below(&self, cores: &[usize], part: usize) -> Vec<N> {
+        let depends = |other: &usize| cores.iter().any(|core| self.depends[*core][*other]);
+        (0..self.cores.len()).filter(depends).flat_map(|c| self.nodes(c, part)).collect()
     }
 
-    /// The nodes that are made of the core, through any number of steps: where right vectors of its eigenvalues live.
-    pub fn above(&self, core: usize, part: usize) -> Vec<N> {
-        (0..self.cores.len()).filter(|other| self.depends[*other][core]).flat_map(|c| self.nodes(c, part)).collect()
+    /// The nodes that are made of the cores, through any number of steps: where right vectors of their eigenvalues live.
+    pub fn above(&self, cores: &[usize], part: usize) -> Vec<N> {
+        let depends = |other: &usize| cores.iter().any(|core| self.depends[*other][*core]);
+        (0..self.cores.len()).filter(depends).flat_map(|c| self.nodes(c, part)).collect()
     }
 }
 

@@ -151,11 +151,7 @@ impl Spectrum {
         cores: &Cores<P::Node>,
         e: &Eigenvalue,
     ) -> Option<(P::Vector, f64)> {
-        let nodes = cores.above(e.core, e.frequency);
-        let form = blocks.real_form(e.frequency, &nodes);
-        let real = null_vector(&shifted(&form, isolated_real(e)?))?;
-        let residual = residual(&form, e.value.re, &real);
-        Some((blocks.right_from_real(e.frequency, &nodes, &real), residual))
+        if e.is_isolated() { self.only_right_vector(blocks, cores, e) } else { None }
     }
 
     /// A left vector: u B_k = lambda u, for an isolated real eigenvalue, with its relative residual.
@@ -165,11 +161,45 @@ impl Spectrum {
         cores: &Cores<P::Node>,
         e: &Eigenvalue,
     ) -> Option<(P::Vector, f64)> {
-        let nodes = cores.below(e.core, e.frequency);
+        if e.is_isolated() { self.only_left_vector(blocks, cores, e) } else { None }
+    }
+
+    /// The same for a real eigenvalue that is known to have one right vector only: isolated, or a single Jordan block.
+    pub fn only_right_vector<P: Parts>(
+        &self,
+        blocks: &P,
+        cores: &Cores<P::Node>,
+        e: &Eigenvalue,
+    ) -> Option<(P::Vector, f64)> {
+        let (lambda, nodes) = (e.real()?, cores.above(&self.cores_of(e), e.frequency));
+        let form = blocks.real_form(e.frequency, &nodes);
+        let real = null_vector(&shifted(&form, lambda))?;
+        let residual = residual(&form, lambda, &real);
+        Some((blocks.right_from_real(e.frequency, &nodes, &real), residual))
+    }
+
+    /// The same for a real eigenvalue that is known to have one left vector only: isolated, or a single Jordan block.
+    pub fn only_left_vector<P: Parts>(
+        &self,
+        blocks: &P,
+        cores: &Cores<P::Node>,
+        e: &Eigenvalue,
+    ) -> Option<(P::Vector, f64)> {
+        let (lambda, nodes) = (e.real()?, cores.below(&self.cores_of(e), e.frequency));
         let form = blocks.real_form(e.frequency, &nodes).transpose();
-        let real = null_vector(&shifted(&form, isolated_real(e)?))?;
-        let residual = residual(&form, e.value.re, &real);
+        let real = null_vector(&shifted(&form, lambda))?;
+        let residual = residual(&form, lambda, &real);
         Some((blocks.left_from_real(e.frequency, &nodes, &real), residual))
+    }
+
+    /// The cores of the eigenvalues that are approximately equal to one, its own among them.
+    pub fn cores_of(&self, e: &Eigenvalue) -> Vec<usize> {
+        if e.is_isolated() {
+            return vec![e.core];
+        }
+        let own = self.eigenvalues.iter().filter(|other| (other.frequency, other.group) == (e.frequency, e.group));
+        let cores: BTreeSet<usize> = own.map(|other| other.core).collect();
+        cores.into_iter().collect()
     }
 
     /// The largest relative residual of the right and left vectors of isolated real eigenvalues, and how many vectors it was
@@ -196,10 +226,6 @@ pub fn near(a: Complex64, b: Complex64) -> bool {
 /// A - lambda
 fn shifted(a: &DMatrix<f64>, lambda: f64) -> DMatrix<f64> {
     a - DMatrix::identity(a.nrows(), a.nrows()) * lambda
-}
-
-fn isolated_real(e: &Eigenvalue) -> Option<f64> {
-    if e.is_isolated() { e.real() } else { None }
 }
 
 /// How far each eigenvalue of a core may be off, by an experiment: the matrix is changed by a few units in the last place, in a

@@ -1,17 +1,19 @@
 //! Where is the limit of a vertex on a crease, and has the surface a tangent plane there?
 //!
 //! A left vector of 1 is the limit mask. Let lambda_1 and lambda_2 be the two largest eigenvalues after 1: where they are real, positive,
-//! each alone in its part, and larger in modulus than all that follows, their left vectors are tangent masks: x_m = limit + sum_i
+//! and larger in modulus than all that follows, their left vectors are tangent masks: x_m = limit + sum_i
 //! lambda_i^m (l_i x_0) r_i + smaller terms. They need not be equal. The faces around the vertex have, more and more exactly, the shape of the
 //! plane control net (r_1, r_2), one factor stretched: where that net's faces around the centre are all turned counter-clockwise,
-//! the normals of these faces converge to that of the plane of the two tangents.
+//! the normals of these faces converge to that of the plane of the two tangents. An eigenvalue with a single Jordan block of size s
+//! grows like m^(s-1) lambda^m, again with one left and one right vector; whether a block is there exact numbers decide.
 
 use super::super::cores::Cores;
 use super::super::spectrum::{Eigenvalue, NEAR, Spectrum};
 use super::exact::ExactHalves;
 use super::halves::{Halves, MirrorNode, Parity};
 use super::local::FanMatrix;
-use crate::mesh::{Fan, Label};
+use crate::mesh::{Fan, FanKind, Label, Lattice};
+use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
 /// Weights, relative to the largest, that rounding alone may have made.
@@ -19,6 +21,9 @@ const ROUNDING: f64 = 1e-14;
 
 /// Determinants, relative to the largest product, that are taken for 0.
 const FLAT: f64 = 1e-9;
+
+/// The step off an eigenvalue at which its Jordan block is looked at.
+const STEP: f64 = 1e-4;
 
 /// Points of the fan, each with a weight.
 pub type FanMask = Vec<(Label, f64)>;
@@ -31,6 +36,8 @@ pub struct TangentMasks {
     pub masks: [FanMask; 2],
     /// The eigenvalue of each.
     pub eigenvalues: [Eigenvalue; 2],
+    /// The size of its Jordan block: 1 where there is none. With a block normals converge slowly, like 1/m.
+    pub jordan: [usize; 2],
     /// The points of the characteristic map: for each point of the neighbourhood the values of the two right vectors.
     pub net: Vec<[f64; 2]>,
 }
@@ -44,9 +51,17 @@ pub(super) struct Stages<'a> {
     pub(super) exact: Option<&'a ExactHalves>,
 }
 
-/// An eigenvalue with its vectors on all points, their product 1.
-struct Pair {
+/// A real positive eigenvalue that grows along one vector.
+#[derive(Clone, Copy)]
+struct Lead {
     eigenvalue: Eigenvalue,
+    /// The size of its Jordan block.
+    jordan: usize,
+}
+
+/// A leading eigenvalue with its vectors on all points: x_m has the part m^(s-1) lambda^m c (left x) right with some c > 0.
+struct Pair {
+    lead: Lead,
     left: Vec<f64>,
     right: Vec<f64>,
 }
@@ -89,14 +104,12 @@ impl Stages<'_> {
 
     /// The tangent masks, or why there are none.
     pub(super) fn tangent_masks(&self) -> Result<TangentMasks, String> {
-        let eigenvalues = self.leading_two()?;
-        let mut pairs = eigenvalues.map(|e| self.pair(e));
-        let first_along = pairs.iter().position(|pair| pair.as_ref().is_ok_and(|pair| self.is_along(pair)));
-        if first_along == Some(1) {
-            pairs.reverse();
+        self.dominant_one().map_err(|why| format!("no tangent plane: {why}"))?;
+        let [mut a, mut b] = self.leading_two()?;
+        if !self.is_along(&a) && self.is_along(&b) {
+            (a, b) = (b, a);
         }
-        let [first, second] = pairs;
-        let (mut first, mut second) = (first?, second?);
+        let (mut first, mut second) = (self.pair(a)?, self.pair(b)?);
         let ahead = self.value(&first.right, self.ring()[0]);
         if if ahead == 0.0 { largest(&first.right) } else { ahead } < 0.0 {
             first.turned();
@@ -109,75 +122,109 @@ impl Stages<'_> {
         let scaled = |pair: &Pair| self.weights(&pair.left, largest(&pair.left).abs());
         Ok(TangentMasks {
             masks: [scaled(&first), scaled(&second)],
-            eigenvalues: [first.eigenvalue, second.eigenvalue],
+            eigenvalues: [a.eigenvalue, b.eigenvalue],
+            jordan: [a.jordan, b.jordan],
             net: first.right.iter().zip(&second.right).map(|(x, y)| [x + 0.0, y + 0.0]).collect(),
         })
     }
 
-    /// The two largest eigenvalues after 1, where a tangent plane may come from them.
-    fn leading_two(&self) -> Result<[Eigenvalue; 2], String> {
-        self.dominant_one().map_err(|why| format!("no tangent plane: {why}"))?;
-        let mut rest = self.spectrum.after_one();
-        let (Some(first), Some(second)) = (rest.next(), rest.next()) else {
+    /// The eigenvalues after 1 down to the modulus of the second, one for each cluster.
+    pub(super) fn contenders(&self) -> Vec<Eigenvalue> {
+        let one = self.spectrum.one();
+        let rest = self.spectrum.distinct().into_iter().filter(|e| Some(*e) != one);
+        let rest: Vec<Eigenvalue> = rest.collect();
+        let least = rest.get(1).map_or(0.0, Eigenvalue::modulus) - NEAR;
+        rest.into_iter().take_while(|e| e.modulus() >= least).collect()
+    }
+
+    /// The two that grow fastest of the eigenvalues after 1, in that order.
+    fn leading_two(&self) -> Result<[Lead; 2], String> {
+        let contenders = self.contenders();
+        let mut leads = contenders.iter().map(|e| self.lead(e)).collect::<Result<Vec<Lead>, String>>()?;
+        let same_level = |a: &Lead, b: &Lead| (a.eigenvalue.modulus() - b.eigenvalue.modulus()).abs() <= NEAR;
+        // the second level, or the only one, in order of growth
+        let start = usize::from(leads.len() > 1 && !same_level(&leads[0], &leads[1]));
+        leads[start..].sort_by(|a, b| b.jordan.cmp(&a.jordan));
+        let [first, second, others @ ..] = &leads[..] else {
             return Err("no tangent plane: there are no two eigenvalues after 1".to_string());
         };
-        for e in [first, second] {
-            if !e.is_isolated() {
-                return Err(self.why_not_alone(e));
-            }
-            if e.real().is_none_or(|value| value <= NEAR) {
-                return Err(format!("no tangent plane: {} is not real and positive", in_words(e)));
-            }
+        let known_level =
+            |other: &Lead| self.exact.is_some_and(|exact| exact.are_level(&leads[start].eigenvalue, &other.eigenvalue));
+        let blocks = leads[start..].iter().any(|lead| lead.jordan > 1);
+        if blocks && !leads[start + 1..].iter().all(known_level) {
+            return Err(format!("undecided: eigenvalues are approximately equal at {}", in_words(&second.eigenvalue)));
         }
-        match rest.next() {
-            Some(third) if second.modulus() - third.modulus() <= NEAR => Err(self.why_third_is_level(second, third)),
+        if start == 1 && first.jordan > 1 {
+            return Err(format!("no tangent plane found: {} has a Jordan block", in_words(&first.eigenvalue)));
+        }
+        match others.first() {
+            Some(third) if third.jordan == second.jordan => Err(self.why_third_is_level(first, second)),
             _ => Ok([*first, *second]),
         }
     }
 
-    /// Several eigenvalues of one part are approximately equal: exact numbers know whether they are a Jordan block.
-    fn why_not_alone(&self, e: &Eigenvalue) -> String {
+    /// An eigenvalue, or cluster, as one that grows along one vector.
+    fn lead(&self, e: &Eigenvalue) -> Result<Lead, String> {
         let value = in_words(e);
-        let Some(known) = self.exact.and_then(|exact| exact.structure_at(e)) else {
-            return format!(
-                "undecided: {} eigenvalues are approximately equal at {value} (a Jordan block or not)",
-                e.cluster
-            );
-        };
-        match known {
-            Some(structure) if structure.largest > 1 => {
-                format!("no tangent plane: {value} has a Jordan block of size {}", structure.largest)
-            }
-            Some(_) => format!("no tangent plane: {value} is an eigenvalue {} times in its part", e.cluster),
-            None => {
-                format!("undecided: {} different eigenvalues at {value} are too near each other for f64", e.cluster)
+        if e.real().is_none_or(|value| value <= NEAR) {
+            return Err(format!("no tangent plane: {value} is not real and positive"));
+        }
+        if e.is_isolated() {
+            return Ok(Lead { eigenvalue: *e, jordan: 1 });
+        }
+        let count = e.cluster;
+        match self.exact.and_then(|exact| exact.structure_at(e)) {
+            None => Err(format!(
+                "undecided: {count} eigenvalues are approximately equal at {value} (a Jordan block or not)"
+            )),
+            Some(None) => Err(format!("undecided: {count} eigenvalues at {value} are too near each other for f64")),
+            Some(Some(known)) if known.geometric == 1 => Ok(Lead { eigenvalue: *e, jordan: known.largest }),
+            Some(Some(known)) => {
+                Err(format!("no tangent plane found: {value} has {} eigenvectors of one parity", known.geometric))
             }
         }
     }
 
-    fn why_third_is_level(&self, second: &Eigenvalue, third: &Eigenvalue) -> String {
-        let (second, third) = (in_words(second), in_words(third));
-        format!(
-            "no tangent plane found: the third eigenvalue {third} is approximately as large as the second, {second}"
-        )
+    /// Three eigenvalues where two are needed: at a corner with many faces, a mode above those of the two boundary edges.
+    fn why_third_is_level(&self, first: &Lead, second: &Lead) -> String {
+        let (mode, edges) = (in_words(&first.eigenvalue), in_words(&second.eigenvalue));
+        let own =
+            self.along_the_boundary().is_some_and(|own| (own.modulus() - second.eigenvalue.modulus()).abs() <= NEAR);
+        if own && matches!(self.fan().kind(), FanKind::Corner { .. }) {
+            return format!("no tangent plane: the mode {mode} is above the {edges} of each of the two boundary edges");
+        }
+        format!("no tangent plane found: the second and the third eigenvalue after 1 are both {edges}, approximately")
     }
 
-    fn pair(&self, eigenvalue: Eigenvalue) -> Result<Pair, String> {
-        let none = || format!("no tangent plane found: no vectors for {}", in_words(&eigenvalue));
-        let (left, _) = self.spectrum.left_vector(self.halves, self.cores, &eigenvalue).ok_or_else(none)?;
-        let (right, _) = self.spectrum.right_vector(self.halves, self.cores, &eigenvalue).ok_or_else(none)?;
-        let product: f64 = left.iter().zip(&right).map(|(l, r)| l * r).sum();
-        if product.abs() <= NEAR * largest(&left).abs() * largest(&right).abs() {
+    fn pair(&self, lead: Lead) -> Result<Pair, String> {
+        let e = &lead.eigenvalue;
+        let none = || format!("no tangent plane found: no vectors for {}", in_words(e));
+        let (mut left, _) = self.spectrum.only_left_vector(self.halves, self.cores, e).ok_or_else(none)?;
+        let (right, _) = self.spectrum.only_right_vector(self.halves, self.cores, e).ok_or_else(none)?;
+        let product = if lead.jordan == 1 { dot(&left, &right) } else { self.through_the_block(&lead, &left, &right) };
+        if product.is_nan() || product.abs() <= NEAR * largest(&left).abs() * largest(&right).abs() {
             return Err(none());
         }
-        Ok(Pair { eigenvalue, left: left.into_iter().map(|value| value / product).collect(), right })
+        if product < 0.0 {
+            left.iter_mut().for_each(|value| *value = -*value);
+        }
+        Ok(Pair { lead, left, right })
+    }
+
+    /// A number with the sign of c in (S - lambda)^(s-1) = c right left, on the generalised eigenvectors: (S - lambda - h)^-1 is about
+    /// -c right left/h^s for small h; applied to the vector `left`, along `right`.
+    fn through_the_block(&self, lead: &Lead, left: &[f64], right: &[f64]) -> f64 {
+        let (lambda, size) = (lead.eigenvalue.value.re, self.local.size());
+        let resolvent = self.local.dense() - DMatrix::identity(size, size) * (lambda + STEP);
+        let image = resolvent.lu().solve(&DVector::from_column_slice(left));
+        image.map_or(f64::NAN, |image| -dot(image.as_slice(), right))
     }
 
     /// Whether the eigenvector runs along the crease: it differs on the spokes 0 and k. At a dart it is the same on either side
     /// of spoke 0.
-    fn is_along(&self, pair: &Pair) -> bool {
+    fn is_along(&self, lead: &Lead) -> bool {
         let along = if self.fan().kind().is_closed() { Parity::Even } else { Parity::Odd };
-        Parity::of_part(pair.eigenvalue.frequency) == along
+        Parity::of_part(lead.eigenvalue.frequency) == along
     }
 
     fn fan(&self) -> Fan {
@@ -193,11 +240,21 @@ impl Stages<'_> {
         self.local.index(label).map_or(0.0, |index| vector[index])
     }
 
-    /// The edges from the centre in the plane of two eigenvectors, each scaled so that its largest is 1.
-    fn spokes(&self, pairs: [&Pair; 2]) -> Vec<[f64; 2]> {
+    /// The points of the faces around the centre without itself, counter-clockwise.
+    fn rim(&self) -> Vec<Label> {
+        let (spokes, sectors) = (self.ring(), self.fan().sectors() as usize);
+        if self.fan().lattice() == Lattice::Triangles {
+            return spokes;
+        }
+        let across = |sector: usize| (sector < sectors).then_some(Label { sector: sector as u32, i: 1, j: 1 });
+        spokes.into_iter().enumerate().flat_map(|(sector, spoke)| [Some(spoke), across(sector)]).flatten().collect()
+    }
+
+    /// The rim seen from the centre in the plane of two eigenvectors, each scaled so that its largest value is 1.
+    fn plane_rim(&self, pairs: [&Pair; 2]) -> Vec<[f64; 2]> {
         let [x, y] = pairs.map(|pair| {
             let centre = self.value(&pair.right, self.fan().centre());
-            let edges: Vec<f64> = self.ring().iter().map(|label| self.value(&pair.right, *label) - centre).collect();
+            let edges: Vec<f64> = self.rim().iter().map(|label| self.value(&pair.right, *label) - centre).collect();
             let scale = largest(&edges).abs();
             edges.iter().map(|edge| if scale == 0.0 { 0.0 } else { edge / scale }).collect::<Vec<f64>>()
         });
@@ -206,9 +263,9 @@ impl Stages<'_> {
 
     /// Which way the faces around the centre turn, if all turn the same way, and that once.
     fn orientation(&self, first: &Pair, second: &Pair) -> Orientation {
-        let spokes = self.spokes([first, second]);
-        let next = spokes[1..].iter().chain(self.fan().kind().is_closed().then_some(&spokes[0]));
-        let turns: Vec<(f64, f64)> = spokes.iter().zip(next).map(|(a, b)| turn(*a, *b)).collect();
+        let rim = self.plane_rim([first, second]);
+        let next = rim[1..].iter().chain(self.fan().kind().is_closed().then_some(&rim[0]));
+        let turns: Vec<(f64, f64)> = rim.iter().zip(next).map(|(a, b)| turn(*a, *b)).collect();
         let total: f64 = turns.iter().map(|(_, angle)| angle.abs()).sum();
         let once = if self.fan().kind().is_closed() { (total - TAU).abs() < 1e-6 } else { total < TAU };
         match (once, turns.iter().all(|(sine, _)| *sine > FLAT), turns.iter().all(|(sine, _)| *sine < -FLAT)) {
@@ -221,15 +278,18 @@ impl Stages<'_> {
     /// Two eigenvectors whose net has no right shape: in known schemes because both vanish along the boundary, whose own
     /// eigenvalue comes later.
     fn why_it_folds(&self, first: &Pair, second: &Pair) -> String {
-        let mut modes = [&first.eigenvalue, &second.eigenvalue];
+        let mut modes = [&first.lead.eigenvalue, &second.lead.eigenvalue];
         modes.sort_by(|a, b| b.modulus().total_cmp(&a.modulus()));
         let [a, b] = modes.map(in_words);
         let ends = [self.ring()[0], Label { sector: self.fan().sectors(), i: 1, j: 0 }];
-        let vanishes = |pair: &Pair| ends.iter().all(|end| self.value(&pair.right, *end) == 0.0);
+        let vanishes = |pair: &Pair| {
+            let least = FLAT * largest(&pair.right).abs();
+            ends.iter().all(|end| self.value(&pair.right, *end).abs() <= least)
+        };
         let boundary = self.along_the_boundary();
         match boundary {
             Some(own) if !self.fan().kind().is_closed() && vanishes(first) && vanishes(second) => format!(
-                "no tangent plane: two modes that vanish along the boundary, {a} and {b}, are above the boundary's {}",
+                "no tangent plane: two modes that vanish along the boundary, {a} and {b}, are not below the boundary's own {}",
                 in_words(&own)
             ),
             _ => format!("no tangent plane found: the characteristic map of {a} and {b} folds at the vertex"),
@@ -255,6 +315,10 @@ enum Orientation {
 fn turn([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> (f64, f64) {
     let sine = ax * by - ay * bx;
     (sine, libm::atan2(sine, ax * bx + ay * by))
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// The entry of the largest modulus.

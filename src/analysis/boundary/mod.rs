@@ -16,6 +16,7 @@ use super::spectrum::Spectrum;
 use crate::mesh::{Fan, FanKind, Lattice};
 use crate::refine::{FanRows, Obstacle, Refinement, RegularStencils, lattice_of};
 use crate::scheme::{RuleBook, Scheme};
+use exact::ExactHalves;
 use halves::{Halves, MirrorNode};
 use influence::FanInfluence;
 use local::FanMatrix;
@@ -103,6 +104,14 @@ impl<'a> BoundaryAnalyzer<'a> {
         Ok(local)
     }
 
+    /// What is exact at the vertex of a local matrix: eigenvalues with multiplicities and Jordan blocks, and the limit mask.
+    ///
+    /// # Errors
+    /// Why exact numbers can't hold it.
+    pub fn exact(&self, local: &FanMatrix) -> Result<ExactHalves, Obstacle> {
+        ExactHalves::of(&self.scheme().with_values(), self.book, local)
+    }
+
     /// Runs every stage at a kind of vertex.
     ///
     /// # Errors
@@ -112,7 +121,11 @@ impl<'a> BoundaryAnalyzer<'a> {
         let halves = Halves::of(local.rows.clone(), &local.mirror);
         let cores = Cores::of(&halves);
         let spectrum = Spectrum::of(&halves, &cores)?;
-        let stages = Stages { local: &local, halves: &halves, cores: &cores, spectrum: &spectrum, exact: None };
+        let mut stages = Stages { local: &local, halves: &halves, cores: &cores, spectrum: &spectrum, exact: None };
+        // exact numbers are asked for where floating ones can't tell a Jordan block
+        let unclear = stages.contenders().iter().any(|e| !e.is_isolated());
+        let exact = if unclear { self.exact(&local).ok() } else { None };
+        stages.exact = exact.as_ref();
         let (limit_mask, tangent_masks) = (stages.limit_mask(), stages.tangent_masks());
         Ok(BoundaryAnalysis { fan: local.fan, local, halves, cores, spectrum, limit_mask, tangent_masks })
     }
