@@ -13,6 +13,7 @@
 
 use super::local::{Entry, LocalMatrix};
 use super::neighbourhood::Orbit;
+use super::parts::{Parts, Unit};
 use crate::numbers::{RootsOfUnity, sum};
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -34,12 +35,17 @@ pub enum Node {
     Pair(usize, usize),
 }
 
-impl Node {
-    /// The number of real unknowns.
-    pub fn unknowns(self) -> usize {
+impl Unit for Node {
+    fn unknowns(self) -> usize {
         if let Node::Pair(..) = self { 2 } else { 1 }
     }
 
+    fn acts_on(self, part: usize) -> bool {
+        part == 0 || self != Node::Centre
+    }
+}
+
+impl Node {
     /// The orbits that it is made of.
     pub fn orbits(self) -> impl Iterator<Item = usize> {
         let (first, second) = match self {
@@ -148,8 +154,54 @@ impl Blocks {
         self.root(k as i64 * i64::from(self.shifts[t]))
     }
 
-    /// Whether the points of one node are made of points of another.
-    pub fn feeds(&self, to: Node, from: Node) -> bool {
+    /// The value z at the first orbit of `to` that comes from z = unit at the first orbit of `from`, its conjugate at the
+    /// second.
+    fn image(&self, k: usize, to: Node, from: Node, unit: Complex64) -> Complex64 {
+        let row = |t: usize, u: usize| self.entry(t, u, k) * self.phase(u, k) * self.phase(t, k).conj();
+        match (to, from) {
+            (Node::Centre, Node::Centre) => Complex64::new(self.centre_weight_of(None), 0.0) * unit,
+            (Node::Centre, Node::Fixed(u)) => Complex64::new(self.centre_weight_of(Some(u)), 0.0) * unit,
+            (Node::Centre, Node::Pair(u, v)) => {
+                unit * self.centre_weight_of(Some(u)) + unit.conj() * self.centre_weight_of(Some(v))
+            }
+            (Node::Fixed(t) | Node::Pair(t, _), Node::Centre) => unit * self.centre_column[t],
+            (Node::Fixed(t) | Node::Pair(t, _), Node::Fixed(u)) => row(t, u) * unit,
+            (Node::Fixed(t) | Node::Pair(t, _), Node::Pair(u, v)) => row(t, u) * unit + row(t, v) * unit.conj(),
+        }
+    }
+
+    /// The local matrix again, from its blocks: S_{(0,t),(d,u)} = (1/n) sum_k (B_k)_{tu} w^(-k d). Row t, then sector d, then
+    /// orbit u; the centre's row and column are those of B_0.
+    pub fn rebuilt_rows(&self) -> Vec<Vec<Vec<f64>>> {
+        let n = self.valence;
+        let blocks: Vec<DMatrix<Complex64>> = (0..n).map(|k| self.block(k)).collect();
+        let offset = usize::from(self.centre_row.is_some());
+        let at = |t: usize, u: usize, d: usize| {
+            let term = |k: usize| {
+                let shift = if k == 0 { offset } else { 0 };
+                blocks[k][(t + shift, u + shift)] * self.root(-2 * (k * d) as i64)
+            };
+            (0..n).map(term).sum::<Complex64>().re / n as f64
+        };
+        let orbits = self.orbits.len();
+        (0..orbits).map(|t| (0..n).map(|d| (0..orbits).map(|u| at(t, u, d)).collect()).collect()).collect()
+    }
+}
+
+/// The parts are the frequencies 0..floor(n/2): those of k and n-k are conjugate.
+impl Parts for Blocks {
+    type Node = Node;
+    type Vector = ModeVector;
+
+    fn count(&self) -> usize {
+        self.valence / 2 + 1
+    }
+
+    fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    fn feeds(&self, to: Node, from: Node) -> bool {
         match (to, from) {
             (Node::Centre, Node::Centre) => self.centre_weight_of(None) != 0.0,
             (Node::Centre, _) => from.orbits().any(|u| self.centre_weight_of(Some(u)) != 0.0),
@@ -159,7 +211,7 @@ impl Blocks {
     }
 
     /// The real form of B_k, restricted to some nodes. The centre may be among them at k = 0 only.
-    pub fn real_form(&self, k: usize, nodes: &[Node]) -> DMatrix<f64> {
+    fn real_form(&self, k: usize, nodes: &[Node]) -> DMatrix<f64> {
         let size = nodes.iter().map(|node| node.unknowns()).sum();
         let mut real = DMatrix::zeros(size, size);
         let mut row = 0;
@@ -180,24 +232,8 @@ impl Blocks {
         real
     }
 
-    /// The value z at the first orbit of `to` that comes from z = unit at the first orbit of `from`, its conjugate at the
-    /// second.
-    fn image(&self, k: usize, to: Node, from: Node, unit: Complex64) -> Complex64 {
-        let row = |t: usize, u: usize| self.entry(t, u, k) * self.phase(u, k) * self.phase(t, k).conj();
-        match (to, from) {
-            (Node::Centre, Node::Centre) => Complex64::new(self.centre_weight_of(None), 0.0) * unit,
-            (Node::Centre, Node::Fixed(u)) => Complex64::new(self.centre_weight_of(Some(u)), 0.0) * unit,
-            (Node::Centre, Node::Pair(u, v)) => {
-                unit * self.centre_weight_of(Some(u)) + unit.conj() * self.centre_weight_of(Some(v))
-            }
-            (Node::Fixed(t) | Node::Pair(t, _), Node::Centre) => unit * self.centre_column[t],
-            (Node::Fixed(t) | Node::Pair(t, _), Node::Fixed(u)) => row(t, u) * unit,
-            (Node::Fixed(t) | Node::Pair(t, _), Node::Pair(u, v)) => row(t, u) * unit + row(t, v) * unit.conj(),
-        }
-    }
-
     /// The complex vector y (the centre's value first, then one for each orbit) of a vector of the real form.
-    pub fn right_from_real(&self, k: usize, nodes: &[Node], real: &[f64]) -> ModeVector {
+    fn right_from_real(&self, k: usize, nodes: &[Node], real: &[f64]) -> ModeVector {
         let mut vector = ModeVector { frequency: k, centre: 0.0, orbits: vec![Complex64::ZERO; self.orbits.len()] };
         let mut at = 0;
         for node in nodes {
@@ -216,7 +252,7 @@ impl Blocks {
     }
 
     /// The row vector u with u B_k = lambda u of a left vector of the real form.
-    pub fn left_from_real(&self, k: usize, nodes: &[Node], real: &[f64]) -> ModeVector {
+    fn left_from_real(&self, k: usize, nodes: &[Node], real: &[f64]) -> ModeVector {
         let mut vector = ModeVector { frequency: k, centre: 0.0, orbits: vec![Complex64::ZERO; self.orbits.len()] };
         let mut at = 0;
         for node in nodes {
@@ -232,23 +268,6 @@ impl Blocks {
             at += node.unknowns();
         }
         vector
-    }
-
-    /// The local matrix again, from its blocks: S_{(0,t),(d,u)} = (1/n) sum_k (B_k)_{tu} w^(-k d). Row t, then sector d, then
-    /// orbit u; the centre's row and column are those of B_0.
-    pub fn rebuilt_rows(&self) -> Vec<Vec<Vec<f64>>> {
-        let n = self.valence;
-        let blocks: Vec<DMatrix<Complex64>> = (0..n).map(|k| self.block(k)).collect();
-        let offset = usize::from(self.centre_row.is_some());
-        let at = |t: usize, u: usize, d: usize| {
-            let term = |k: usize| {
-                let shift = if k == 0 { offset } else { 0 };
-                blocks[k][(t + shift, u + shift)] * self.root(-2 * (k * d) as i64)
-            };
-            (0..n).map(term).sum::<Complex64>().re / n as f64
-        };
-        let orbits = self.orbits.len();
-        (0..orbits).map(|t| (0..n).map(|d| (0..orbits).map(|u| at(t, u, d)).collect()).collect()).collect()
     }
 }
 

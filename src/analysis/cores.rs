@@ -4,23 +4,24 @@
 //! *cores*. Ordered by dependence they make every block triangular, so that the eigenvalues of a block are those of its
 //! cores, of one to three unknowns in all known schemes.
 
-use super::blocks::{Blocks, Node};
+use super::blocks::Node;
+use super::parts::{Parts, Unit};
 use petgraph::algo::tarjan_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 /// The cores of the blocks of one local matrix.
 #[derive(Clone, Debug)]
-pub struct Cores {
+pub struct Cores<N = Node> {
     /// The nodes of each core; a core depends on itself and on earlier ones only.
-    pub cores: Vec<Vec<Node>>,
+    pub cores: Vec<Vec<N>>,
     /// `depends[a][b]`: whether points of core a are made, through any number of steps, of points of core b.
     depends: Vec<Vec<bool>>,
 }
 
-impl Cores {
+impl<N: Unit> Cores<N> {
     /// The cores of a matrix's blocks.
-    pub fn of(blocks: &Blocks) -> Cores {
-        let nodes = &blocks.nodes;
+    pub fn of(blocks: &impl Parts<Node = N>) -> Cores<N> {
+        let nodes = blocks.nodes();
         let feeds = |to: usize, from: usize| blocks.feeds(nodes[to], nodes[from]);
         let components = components(nodes.len(), feeds);
         let count = components.len();
@@ -39,25 +40,21 @@ impl Cores {
         Cores { cores: cores.collect(), depends }
     }
 
-    /// The nodes of the core that act on a frequency: the centre acts on frequency 0 only.
-    pub fn nodes(&self, core: usize, frequency: usize) -> Vec<Node> {
-        self.cores[core].iter().copied().filter(|node| frequency == 0 || *node != Node::Centre).collect()
+    /// The nodes of the core that act on a part: the centre acts on frequency 0 only.
+    pub fn nodes(&self, core: usize, part: usize) -> Vec<N> {
+        self.cores[core].iter().copied().filter(|node| node.acts_on(part)).collect()
     }
 
-    /// The nodes that the core is made of, through any number of steps: where left vectors of its eigenvalues live.
-    pub fn below(&self, core: usize, frequency: usize) -> Vec<Node> {
-        (0..self.cores.len())
-            .filter(|other| self.depends[core][*other])
-            .flat_map(|c| self.nodes(c, frequency))
-            .collect()
+    /// The nodes that the cores are made of, through any number of steps: where left vectors of their eigenvalues live.
+    pub fn below(&self, cores: &[usize], part: usize) -> Vec<N> {
+        let depends = |other: &usize| cores.iter().any(|core| self.depends[*core][*other]);
+        (0..self.cores.len()).filter(depends).flat_map(|c| self.nodes(c, part)).collect()
     }
 
-    /// The nodes that are made of the core, through any number of steps: where right vectors of its eigenvalues live.
-    pub fn above(&self, core: usize, frequency: usize) -> Vec<Node> {
-        (0..self.cores.len())
-            .filter(|other| self.depends[*other][core])
-            .flat_map(|c| self.nodes(c, frequency))
-            .collect()
+    /// The nodes that are made of the cores, through any number of steps: where right vectors of their eigenvalues live.
+    pub fn above(&self, cores: &[usize], part: usize) -> Vec<N> {
+        let depends = |other: &usize| cores.iter().any(|core| self.depends[*other][*core]);
+        (0..self.cores.len()).filter(depends).flat_map(|c| self.nodes(c, part)).collect()
     }
 }
 

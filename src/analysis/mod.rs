@@ -4,6 +4,7 @@
 //! An [`Analyzer`] holds what all valences of a scheme share; [`Analyzer::at`] runs the stages for one.
 
 pub mod blocks;
+pub mod boundary;
 pub mod charmap;
 pub mod cores;
 pub mod exact;
@@ -11,6 +12,7 @@ pub mod limit;
 pub mod local;
 pub mod masks;
 pub mod neighbourhood;
+pub mod parts;
 pub mod places;
 pub mod spectra;
 pub mod spectrum;
@@ -319,6 +321,6 @@ fn classical(rows: &PatchRows, local: &LocalMatrix, cores: &Cores, spectrum: &Sp
         orbits.all(|t| smallest.contains(&local.orbits[t]))
     };
     let largest = |frequency: usize| spectrum.after_one().filter(inside).find(|e| e.frequency == frequency).copied();
-    let saddle = if spectrum.valence >= 4 { largest(2) } else { None };
+    let saddle = largest(2);
     Ok(Classical { cup: largest(0), saddle, orbits: smallest })
 }

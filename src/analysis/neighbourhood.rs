@@ -10,22 +10,22 @@ use crate::refine::{Obstacle, PatchRows, RegularStencils};
 use std::collections::BTreeSet;
 
 /// The most points that the support of a tile may have.
-const LARGEST_SUPPORT: usize = 4096;
+pub(super) const LARGEST_SUPPORT: usize = 4096;
 
 /// An orbit of points under rotation: the label (i, j) without its sector; (0, 0) is the centre where that is a point.
 pub type Orbit = (i32, i32);
 
 /// A tile of the lattice: the unit square at (i, j), or one of the two triangles that it is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Tile {
-    i: i32,
-    j: i32,
+pub(super) struct Tile {
+    pub(super) i: i32,
+    pub(super) j: i32,
     /// The triangle away from (i, j).
-    down: bool,
+    pub(super) down: bool,
 }
 
 impl Tile {
-    fn children(self, lattice: Lattice) -> [Tile; 4] {
+    pub(super) fn children(self, lattice: Lattice) -> [Tile; 4] {
         let (i, j) = (2 * self.i, 2 * self.j);
         let tile = |di: i32, dj: i32, down: bool| Tile { i: i + di, j: j + dj, down };
         match (lattice, self.down) {
@@ -36,7 +36,7 @@ impl Tile {
     }
 
     /// The points of the lattice in the closed tile; a dual tile has its one point in the middle.
-    fn points(self, lattice: Lattice) -> Vec<(i32, i32)> {
+    pub(super) fn points(self, lattice: Lattice) -> Vec<(i32, i32)> {
         let Tile { i, j, down } = self;
         match (lattice, down) {
             (Lattice::Dual, _) => vec![(i, j)],
@@ -124,7 +124,7 @@ impl Influence {
 }
 
 /// Ring by ring, and counter-clockwise within a ring.
-fn order(lattice: Lattice, a: Orbit, b: Orbit) -> std::cmp::Ordering {
+pub(super) fn order(lattice: Lattice, a: Orbit, b: Orbit) -> std::cmp::Ordering {
     let ring = |(i, j): Orbit| lattice.ring(i, j);
     // counter-clockwise: the cross product of a and b, from the middle of the face where that is the centre
     let double = |(i, j): Orbit| if lattice.has_centre() { (2 * i, 2 * j) } else { (2 * i + 1, 2 * j + 1) };
@@ -158,7 +158,10 @@ fn sources(rows: &PatchRows, orbits: &BTreeSet<Orbit>) -> Result<BTreeSet<Orbit>
 }
 
 /// The points that influence the limit over the tile at the origin of a regular lattice, upright and down.
-fn regular_supports(stencils: &RegularStencils, lattice: Lattice) -> Result<[BTreeSet<(i32, i32)>; 2], Obstacle> {
+pub(super) fn regular_supports(
+    stencils: &RegularStencils,
+    lattice: Lattice,
+) -> Result<[BTreeSet<(i32, i32)>; 2], Obstacle> {
     let tile = |down: bool| Tile { i: 0, j: 0, down };
     let mut supports = [false, true].map(|down| tile(down).points(lattice).into_iter().collect::<BTreeSet<_>>());
     loop {

@@ -4,8 +4,8 @@
 //! tell apart form a cluster; its structure (one Jordan block, or several) is not decided here, and no vectors are
 //! computed for it.
 
-use super::blocks::{Blocks, ModeVector};
 use super::cores::Cores;
+use super::parts::Parts;
 use crate::refine::Obstacle;
 use nalgebra::{DMatrix, DVector, Matrix3};
 use num_complex::Complex64;
@@ -24,7 +24,8 @@ pub struct Eigenvalue {
     /// Its value; the imaginary part is exactly 0 where it is real. Of a cluster within one core, the mean: rounding drives
     /// equal eigenvalues apart, but moves their mean little.
     pub value: Complex64,
-    /// Its frequency, 0..floor(n/2): frequencies k and n-k have the same eigenvalues.
+    /// Its frequency, 0..floor(n/2): frequencies k and n-k have the same eigenvalues. Where there is no rotation but a mirror, 0
+    /// for the even part and 1 for the odd one.
     pub frequency: usize,
     /// The core that it belongs to.
     pub core: usize,
@@ -63,8 +64,8 @@ impl Eigenvalue {
 pub struct Spectrum {
     /// Every eigenvalue of the blocks 0..floor(n/2), largest modulus first, approximately equal ones in order of frequency.
     pub eigenvalues: Vec<Eigenvalue>,
-    /// The valence n.
-    pub valence: usize,
+    /// The number of these blocks.
+    pub blocks: usize,
 }
 
 impl Spectrum {
@@ -72,11 +73,10 @@ impl Spectrum {
     ///
     /// # Errors
     /// When the eigenvalues of a core can't be computed.
-    pub fn of(blocks: &Blocks, cores: &Cores) -> Result<Spectrum, Obstacle> {
-        let valence = blocks.valence();
-        let mut eigenvalues = Vec::with_capacity((valence / 2 + 1) * blocks.orbits.len());
+    pub fn of<P: Parts>(blocks: &P, cores: &Cores<P::Node>) -> Result<Spectrum, Obstacle> {
+        let mut eigenvalues = Vec::with_capacity(blocks.count() * blocks.nodes().len());
         let nodes = [0, 1].map(|k| (0..cores.cores.len()).map(|core| cores.nodes(core, k)).collect::<Vec<_>>());
-        for frequency in 0..=valence / 2 {
+        for frequency in 0..blocks.count() {
             let start = eigenvalues.len();
             for (core, nodes) in nodes[frequency.min(1)].iter().enumerate() {
                 let form = blocks.real_form(frequency, nodes);
@@ -97,7 +97,7 @@ impl Spectrum {
             find_clusters(&mut eigenvalues[start..]);
         }
         sort(&mut eigenvalues);
-        Ok(Spectrum { eigenvalues, valence })
+        Ok(Spectrum { eigenvalues, blocks: blocks.count() })
     }
 
     /// The eigenvalue 1 of the constants: the one of frequency 0 nearest to 1.
@@ -145,27 +145,67 @@ impl Spectrum {
 
     /// A right vector: B_k y = lambda y, for an isolated real eigenvalue. The largest entry of the residual, relative to that
     /// of the vector, comes with it.
-    pub fn right_vector(&self, blocks: &Blocks, cores: &Cores, e: &Eigenvalue) -> Option<(ModeVector, f64)> {
-        let nodes = cores.above(e.core, e.frequency);
-        let form = blocks.real_form(e.frequency, &nodes);
-        let real = null_vector(&shifted(&form, isolated_real(e)?))?;
-        let residual = residual(&form, e.value.re, &real);
-        Some((blocks.right_from_real(e.frequency, &nodes, &real), residual))
+    pub fn right_vector<P: Parts>(
+        &self,
+        blocks: &P,
+        cores: &Cores<P::Node>,
+        e: &Eigenvalue,
+    ) -> Option<(P::Vector, f64)> {
+        if e.is_isolated() { self.only_right_vector(blocks, cores, e) } else { None }
     }
 
     /// A left vector: u B_k = lambda u, for an isolated real eigenvalue, with its relative residual.
-    pub fn left_vector(&self, blocks: &Blocks, cores: &Cores, e: &Eigenvalue) -> Option<(ModeVector, f64)> {
-        let nodes = cores.below(e.core, e.frequency);
+    pub fn left_vector<P: Parts>(
+        &self,
+        blocks: &P,
+        cores: &Cores<P::Node>,
+        e: &Eigenvalue,
+    ) -> Option<(P::Vector, f64)> {
+        if e.is_isolated() { self.only_left_vector(blocks, cores, e) } else { None }
+    }
+
+    /// The same for a real eigenvalue that is known to have one right vector only: isolated, or a single Jordan block.
+    pub fn only_right_vector<P: Parts>(
+        &self,
+        blocks: &P,
+        cores: &Cores<P::Node>,
+        e: &Eigenvalue,
+    ) -> Option<(P::Vector, f64)> {
+        let (lambda, nodes) = (e.real()?, cores.above(&self.cores_of(e), e.frequency));
+        let form = blocks.real_form(e.frequency, &nodes);
+        let real = null_vector(&shifted(&form, lambda))?;
+        let residual = residual(&form, lambda, &real);
+        Some((blocks.right_from_real(e.frequency, &nodes, &real), residual))
+    }
+
+    /// The same for a real eigenvalue that is known to have one left vector only: isolated, or a single Jordan block.
+    pub fn only_left_vector<P: Parts>(
+        &self,
+        blocks: &P,
+        cores: &Cores<P::Node>,
+        e: &Eigenvalue,
+    ) -> Option<(P::Vector, f64)> {
+        let (lambda, nodes) = (e.real()?, cores.below(&self.cores_of(e), e.frequency));
         let form = blocks.real_form(e.frequency, &nodes).transpose();
-        let real = null_vector(&shifted(&form, isolated_real(e)?))?;
-        let residual = residual(&form, e.value.re, &real);
+        let real = null_vector(&shifted(&form, lambda))?;
+        let residual = residual(&form, lambda, &real);
         Some((blocks.left_from_real(e.frequency, &nodes, &real), residual))
+    }
+
+    /// The cores of the eigenvalues that are approximately equal to one, its own among them.
+    pub fn cores_of(&self, e: &Eigenvalue) -> Vec<usize> {
+        if e.is_isolated() {
+            return vec![e.core];
+        }
+        let own = self.eigenvalues.iter().filter(|other| (other.frequency, other.group) == (e.frequency, e.group));
+        let cores: BTreeSet<usize> = own.map(|other| other.core).collect();
+        cores.into_iter().collect()
     }
 
     /// The largest relative residual of the right and left vectors of isolated real eigenvalues, and how many vectors it was
     /// taken over: those of every frequency, or of [`MOST_TESTED`] ones evenly spread where there are more.
-    pub fn approx_residual(&self, blocks: &Blocks, cores: &Cores) -> (f64, usize) {
-        let step = self.valence / 2 / MOST_TESTED + 1;
+    pub fn approx_residual<P: Parts>(&self, blocks: &P, cores: &Cores<P::Node>) -> (f64, usize) {
+        let step = self.blocks.saturating_sub(1) / MOST_TESTED + 1;
         let tested = || self.eigenvalues.iter().filter(move |e| e.frequency % step == 0 || e.frequency == 1);
         let right = tested().filter_map(|e| self.right_vector(blocks, cores, e));
         let left = tested().filter_map(|e| self.left_vector(blocks, cores, e));
@@ -186,10 +226,6 @@ pub fn near(a: Complex64, b: Complex64) -> bool {
 /// A - lambda
 fn shifted(a: &DMatrix<f64>, lambda: f64) -> DMatrix<f64> {
     a - DMatrix::identity(a.nrows(), a.nrows()) * lambda
-}
-
-fn isolated_real(e: &Eigenvalue) -> Option<f64> {
-    if e.is_isolated() { e.real() } else { None }
 }
 
 /// How far each eigenvalue of a core may be off, by an experiment: the matrix is changed by a few units in the last place, in a

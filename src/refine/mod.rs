@@ -6,6 +6,7 @@
 mod births;
 mod compact;
 mod exact_weights;
+mod fan_rows;
 mod gather;
 mod growth;
 mod names;
@@ -15,6 +16,7 @@ mod steps;
 mod symmetry;
 
 pub use exact_weights::{Count, EnclosedWeights, ExactWeights};
+pub use fan_rows::FanRows;
 pub use gather::{Coordinate, Point};
 pub use growth::Counts;
 pub use names::OrbitNames;
@@ -167,6 +169,11 @@ impl<'a, W: Field> Refinement<'a, W> {
     /// The scheme's rules, with weights from elsewhere than its formulas alone.
     pub fn weighed(scheme: &'a Scheme, weigher: impl Weigher<W> + 'a) -> Self {
         Refinement { scheme, boundary: None, weigher: Box::new(weigher), terms: RefCell::new(HashMap::new()) }
+    }
+
+    /// The same with the rules of a boundary file.
+    pub fn with_boundary(self, book: &'a RuleBook) -> Self {
+        Refinement { boundary: Some(book), ..self }
     }
 
     /// The scheme that is refined with.

@@ -54,6 +54,11 @@ impl RegularStencils {
     pub fn clear_of_centre(&self) -> i32 {
         4 * (self.reach + 1)
     }
+
+    /// The distance from a crease from which on a new point's stencil has points on one side only.
+    pub fn clear_of_crease(&self) -> i32 {
+        2 * (self.reach + 1)
+    }
 }
 
 /// The rows of one patch, walked near the centre and by stencils elsewhere.

@@ -25,8 +25,12 @@ pub struct Mask<F> {
 
 const NOT_ONE: Trouble = Trouble::BeyondThisWorld("the eigenvalue has several left vectors");
 
-/// The left vector of a simple eigenvalue that the unknowns `core` have, on all unknowns.
-fn left_vector<F: Field>(matrix: &Matrix<F>, below: &[usize], lambda: &F) -> Result<Vec<F>, Trouble> {
+/// The left vector of an eigenvalue that has one, on all unknowns; it lives on those `below` the cores that have the eigenvalue.
+pub(in crate::analysis) fn left_vector<F: Field>(
+    matrix: &Matrix<F>,
+    below: &[usize],
+    lambda: &F,
+) -> Result<Vec<F>, Trouble> {
     let own = transposed(&shifted(&part(matrix, below), lambda)?);
     let [vector] = &null_space(&own)?[..] else { return Err(NOT_ONE) };
     let mut whole = vec![F::whole(0); matrix.len()];

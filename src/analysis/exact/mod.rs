@@ -414,9 +414,9 @@ fn bounded_at_one(analysis: &ExactAnalysis, tied: &[usize]) -> bool {
 
 const NO_ONE: &str = "1 is not known to be an eigenvalue: the weights don't sum to 1 exactly, or 1 is not simple";
 
-const TOO_LARGE_A_FIELD: &str = "the field of the cosines has too large a degree";
+pub(in crate::analysis) const TOO_LARGE_A_FIELD: &str = "the field of the cosines has too large a degree";
 
-fn described<F: Described>(
+pub(in crate::analysis) fn described<F: Described>(
     spectrum: &Spectrum<F, BITS>,
     e: &Eigenvalue,
     embedding: Embedding<F, BITS>,

@@ -1,0 +1,342 @@
+//! Where is the limit of a vertex on a crease, and has the surface a tangent plane there?
+//!
+//! A left vector of 1 is the limit mask. Let lambda_1 and lambda_2 be the two largest eigenvalues after 1: where they are real, positive,
+//! and larger in modulus than all that follows, their left vectors are tangent masks: x_m = limit + sum_i
+//! lambda_i^m (l_i x_0) r_i + smaller terms. They need not be equal. The faces around the vertex have, more and more exactly, the shape of the
+//! plane control net (r_1, r_2), one factor stretched: where that net's faces around the centre are all turned counter-clockwise,
+//! the normals of these faces converge to that of the plane of the two tangents. An eigenvalue with a single Jordan block of size s
+//! grows like m^(s-1) lambda^m, again with one left and one right vector; whether a block is there exact numbers decide.
+
+use super::super::cores::Cores;
+use super::super::spectrum::{Eigenvalue, NEAR, Spectrum};
+use super::exact::ExactHalves;
+use super::halves::{Halves, MirrorNode, Parity};
+use super::local::FanMatrix;
+use crate::mesh::{Fan, FanKind, Label, Lattice};
+use nalgebra::{DMatrix, DVector};
+use std::f64::consts::TAU;
+
+/// Weights, relative to the largest, that rounding alone may have made.
+const ROUNDING: f64 = 1e-14;
+
+/// Determinants, relative to the largest product, that are taken for 0.
+const FLAT: f64 = 1e-9;
+
+/// The step off an eigenvalue at which its Jordan block is looked at.
+const STEP: f64 = 1e-4;
+
+/// Points of the fan, each with a weight.
+pub type FanMask = Vec<(Label, f64)>;
+
+/// The two tangent masks of a vertex.
+#[derive(Clone, Debug)]
+pub struct TangentMasks {
+    /// The masks; the largest weight of each is 1 or -1. The first tangent runs along the crease towards spoke 0, as far as there is such
+    /// a direction, and first x second is the outward normal of a surface whose faces are counter-clockwise.
+    pub masks: [FanMask; 2],
+    /// The eigenvalue of each.
+    pub eigenvalues: [Eigenvalue; 2],
+    /// The size of its Jordan block: 1 where there is none. With a block normals converge slowly, like 1/m.
+    pub jordan: [usize; 2],
+    /// The points of the characteristic map: for each point of the neighbourhood the values of the two right vectors.
+    pub net: Vec<[f64; 2]>,
+}
+
+/// What masks are made of.
+pub(super) struct Stages<'a> {
+    pub(super) local: &'a FanMatrix,
+    pub(super) halves: &'a Halves,
+    pub(super) cores: &'a Cores<MirrorNode>,
+    pub(super) spectrum: &'a Spectrum,
+    pub(super) exact: Option<&'a ExactHalves>,
+}
+
+/// A real positive eigenvalue that grows along one vector.
+#[derive(Clone, Copy)]
+struct Lead {
+    eigenvalue: Eigenvalue,
+    /// The size of its Jordan block.
+    jordan: usize,
+}
+
+/// A leading eigenvalue with its vectors on all points: x_m has the part m^(s-1) lambda^m c (left x) right with some c > 0.
+struct Pair {
+    lead: Lead,
+    left: Vec<f64>,
+    right: Vec<f64>,
+}
+
+impl Pair {
+    fn turned(&mut self) {
+        self.left.iter_mut().chain(&mut self.right).for_each(|value| *value = -*value);
+    }
+}
+
+impl Stages<'_> {
+    /// The limit mask, its weights summing to 1; or why there is none.
+    pub(super) fn limit_mask(&self) -> Result<FanMask, String> {
+        let one = self.dominant_one().map_err(|why| format!("no limit mask: {why}"))?;
+        let vector = self.spectrum.left_vector(self.halves, self.cores, &one).map(|(left, _)| left);
+        let left = vector.ok_or("no limit mask: the left vector of 1 was not found")?;
+        let sum: f64 = left.iter().sum();
+        Ok(self.weights(&left, sum))
+    }
+
+    /// The 1 of the constants, where it is alone and larger than all else.
+    fn dominant_one(&self) -> Result<Eigenvalue, String> {
+        let one = self.spectrum.one().ok_or("there is no eigenvalue 1")?;
+        let next = self.spectrum.after_one().next().map_or(0.0, Eigenvalue::modulus);
+        if (one.modulus() - 1.0).abs() > NEAR {
+            return Err("1 is not an eigenvalue".to_string());
+        }
+        if !one.is_isolated() || next >= 1.0 - NEAR {
+            return Err(format!("1 is not larger than all that follows, {}", short(next)));
+        }
+        Ok(one)
+    }
+
+    /// The weights that are not 0, divided by a scale.
+    fn weights(&self, left: &[f64], scale: f64) -> FanMask {
+        let least = ROUNDING * largest(left).abs();
+        let weights = self.local.labels.iter().zip(left).filter(|(_, weight)| weight.abs() > least);
+        weights.map(|(label, weight)| (*label, weight / scale)).collect()
+    }
+
+    /// The tangent masks, or why there are none.
+    pub(super) fn tangent_masks(&self) -> Result<TangentMasks, String> {
+        self.dominant_one().map_err(|why| format!("no tangent plane: {why}"))?;
+        let [mut a, mut b] = self.leading_two()?;
+        if !self.is_along(&a) && self.is_along(&b) {
+            (a, b) = (b, a);
+        }
+        let (mut first, mut second) = (self.pair(a)?, self.pair(b)?);
+        let ahead = self.value(&first.right, self.ring()[0]);
+        if if ahead == 0.0 { largest(&first.right) } else { ahead } < 0.0 {
+            first.turned();
+        }
+        match self.orientation(&first, &second) {
+            Orientation::CounterClockwise => {}
+            Orientation::Clockwise => second.turned(),
+            Orientation::Neither => return Err(self.why_it_folds(&first, &second)),
+        }
+        let scaled = |pair: &Pair| self.weights(&pair.left, largest(&pair.left).abs());
+        Ok(TangentMasks {
+            masks: [scaled(&first), scaled(&second)],
+            eigenvalues: [a.eigenvalue, b.eigenvalue],
+            jordan: [a.jordan, b.jordan],
+            net: first.right.iter().zip(&second.right).map(|(x, y)| [x + 0.0, y + 0.0]).collect(),
+        })
+    }
+
+    /// The eigenvalues after 1 down to the modulus of the second, one for each cluster.
+    pub(super) fn contenders(&self) -> Vec<Eigenvalue> {
+        let one = self.spectrum.one();
+        let rest = self.spectrum.distinct().into_iter().filter(|e| Some(*e) != one);
+        let rest: Vec<Eigenvalue> = rest.collect();
+        let least = rest.get(1).map_or(0.0, Eigenvalue::modulus) - NEAR;
+        rest.into_iter().take_while(|e| e.modulus() >= least).collect()
+    }
+
+    /// The two that grow fastest of the eigenvalues after 1, in that order.
+    fn leading_two(&self) -> Result<[Lead; 2], String> {
+        let contenders = self.contenders();
+        let mut leads = contenders.iter().map(|e| self.lead(e)).collect::<Result<Vec<Lead>, String>>()?;
+        let same_level = |a: &Lead, b: &Lead| (a.eigenvalue.modulus() - b.eigenvalue.modulus()).abs() <= NEAR;
+        // the second level, or the only one, in order of growth
+        let start = usize::from(leads.len() > 1 && !same_level(&leads[0], &leads[1]));
+        leads[start..].sort_by(|a, b| b.jordan.cmp(&a.jordan));
+        let [first, second, others @ ..] = &leads[..] else {
+            return Err("no tangent plane: there are no two eigenvalues after 1".to_string());
+        };
+        let known_level =
+            |other: &Lead| self.exact.is_some_and(|exact| exact.are_level(&leads[start].eigenvalue, &other.eigenvalue));
+        let blocks = leads[start..].iter().any(|lead| lead.jordan > 1);
+        if blocks && !leads[start + 1..].iter().all(known_level) {
+            return Err(format!("undecided: eigenvalues are approximately equal at {}", in_words(&second.eigenvalue)));
+        }
+        if start == 1 && first.jordan > 1 {
+            return Err(format!("no tangent plane found: {} has a Jordan block", in_words(&first.eigenvalue)));
+        }
+        match others.first() {
+            Some(third) if third.jordan == second.jordan => Err(self.why_third_is_level(first, second)),
+            _ => Ok([*first, *second]),
+        }
+    }
+
+    /// An eigenvalue, or cluster, as one that grows along one vector.
+    fn lead(&self, e: &Eigenvalue) -> Result<Lead, String> {
+        let value = in_words(e);
+        if e.real().is_none_or(|value| value <= NEAR) {
+            return Err(format!("no tangent plane: {value} is not real and positive"));
+        }
+        if e.is_isolated() {
+            return Ok(Lead { eigenvalue: *e, jordan: 1 });
+        }
+        let count = e.cluster;
+        match self.exact.and_then(|exact| exact.structure_at(e)) {
+            None => Err(format!(
+                "undecided: {count} eigenvalues are approximately equal at {value} (a Jordan block or not)"
+            )),
+            Some(None) => Err(format!("undecided: {count} eigenvalues at {value} are too near each other for f64")),
+            Some(Some(known)) if known.geometric == 1 => Ok(Lead { eigenvalue: *e, jordan: known.largest }),
+            Some(Some(known)) => {
+                Err(format!("no tangent plane found: {value} has {} eigenvectors of one parity", known.geometric))
+            }
+        }
+    }
+
+    /// Three eigenvalues where two are needed: at a corner with many faces, a mode above those of the two boundary edges.
+    fn why_third_is_level(&self, first: &Lead, second: &Lead) -> String {
+        let (mode, edges) = (in_words(&first.eigenvalue), in_words(&second.eigenvalue));
+        let own =
+            self.along_the_boundary().is_some_and(|own| (own.modulus() - second.eigenvalue.modulus()).abs() <= NEAR);
+        if own && matches!(self.fan().kind(), FanKind::Corner { .. }) {
+            return format!("no tangent plane: the mode {mode} is above the {edges} of each of the two boundary edges");
+        }
+        format!("no tangent plane found: the second and the third eigenvalue after 1 are both {edges}, approximately")
+    }
+
+    fn pair(&self, lead: Lead) -> Result<Pair, String> {
+        let e = &lead.eigenvalue;
+        let none = || format!("no tangent plane found: no vectors for {}", in_words(e));
+        let (mut left, _) = self.spectrum.only_left_vector(self.halves, self.cores, e).ok_or_else(none)?;
+        let (right, _) = self.spectrum.only_right_vector(self.halves, self.cores, e).ok_or_else(none)?;
+        let product = if lead.jordan == 1 { dot(&left, &right) } else { self.through_the_block(&lead, &left, &right) };
+        if product.is_nan() || product.abs() <= NEAR * largest(&left).abs() * largest(&right).abs() {
+            return Err(none());
+        }
+        if product < 0.0 {
+            left.iter_mut().for_each(|value| *value = -*value);
+        }
+        Ok(Pair { lead, left, right })
+    }
+
+    /// A number with the sign of c in (S - lambda)^(s-1) = c right left, on the generalised eigenvectors: (S - lambda - h)^-1 is about
+    /// -c right left/h^s for small h; applied to the vector `left`, along `right`.
+    fn through_the_block(&self, lead: &Lead, left: &[f64], right: &[f64]) -> f64 {
+        let (lambda, size) = (lead.eigenvalue.value.re, self.local.size());
+        let resolvent = self.local.dense() - DMatrix::identity(size, size) * (lambda + STEP);
+        let image = resolvent.lu().solve(&DVector::from_column_slice(left));
+        image.map_or(f64::NAN, |image| -dot(image.as_slice(), right))
+    }
+
+    /// Whether the eigenvector runs along the crease: it differs on the spokes 0 and k. At a dart it is the same on either side
+    /// of spoke 0.
+    fn is_along(&self, lead: &Lead) -> bool {
+        let along = if self.fan().kind().is_closed() { Parity::Even } else { Parity::Odd };
+        Parity::of_part(lead.eigenvalue.frequency) == along
+    }
+
+    fn fan(&self) -> Fan {
+        self.local.fan
+    }
+
+    /// The edge neighbours of the centre, counter-clockwise.
+    fn ring(&self) -> Vec<Label> {
+        (0..self.fan().spokes()).map(|sector| Label { sector, i: 1, j: 0 }).collect()
+    }
+
+    fn value(&self, vector: &[f64], label: Label) -> f64 {
+        self.local.index(label).map_or(0.0, |index| vector[index])
+    }
+
+    /// The points of the faces around the centre without itself, counter-clockwise.
+    fn rim(&self) -> Vec<Label> {
+        let (spokes, sectors) = (self.ring(), self.fan().sectors() as usize);
+        if self.fan().lattice() == Lattice::Triangles {
+            return spokes;
+        }
+        let across = |sector: usize| (sector < sectors).then_some(Label { sector: sector as u32, i: 1, j: 1 });
+        spokes.into_iter().enumerate().flat_map(|(sector, spoke)| [Some(spoke), across(sector)]).flatten().collect()
+    }
+
+    /// The rim seen from the centre in the plane of two eigenvectors, each scaled so that its largest value is 1.
+    fn plane_rim(&self, pairs: [&Pair; 2]) -> Vec<[f64; 2]> {
+        let [x, y] = pairs.map(|pair| {
+            let centre = self.value(&pair.right, self.fan().centre());
+            let edges: Vec<f64> = self.rim().iter().map(|label| self.value(&pair.right, *label) - centre).collect();
+            let scale = largest(&edges).abs();
+            edges.iter().map(|edge| if scale == 0.0 { 0.0 } else { edge / scale }).collect::<Vec<f64>>()
+        });
+        x.into_iter().zip(y).map(|(x, y)| [x, y]).collect()
+    }
+
+    /// Which way the faces around the centre turn, if all turn the same way, and that once.
+    fn orientation(&self, first: &Pair, second: &Pair) -> Orientation {
+        let rim = self.plane_rim([first, second]);
+        let next = rim[1..].iter().chain(self.fan().kind().is_closed().then_some(&rim[0]));
+        let turns: Vec<(f64, f64)> = rim.iter().zip(next).map(|(a, b)| turn(*a, *b)).collect();
+        let total: f64 = turns.iter().map(|(_, angle)| angle.abs()).sum();
+        let once = if self.fan().kind().is_closed() { (total - TAU).abs() < 1e-6 } else { total < TAU };
+        match (once, turns.iter().all(|(sine, _)| *sine > FLAT), turns.iter().all(|(sine, _)| *sine < -FLAT)) {
+            (true, true, _) => Orientation::CounterClockwise,
+            (true, _, true) => Orientation::Clockwise,
+            _ => Orientation::Neither,
+        }
+    }
+
+    /// Two eigenvectors whose net has no right shape: in known schemes because both vanish along the boundary, whose own
+    /// eigenvalue comes later.
+    fn why_it_folds(&self, first: &Pair, second: &Pair) -> String {
+        let mut modes = [&first.lead.eigenvalue, &second.lead.eigenvalue];
+        modes.sort_by(|a, b| b.modulus().total_cmp(&a.modulus()));
+        let [a, b] = modes.map(in_words);
+        let ends = [self.ring()[0], Label { sector: self.fan().sectors(), i: 1, j: 0 }];
+        let vanishes = |pair: &Pair| {
+            let least = FLAT * largest(&pair.right).abs();
+            ends.iter().all(|end| self.value(&pair.right, *end).abs() <= least)
+        };
+        let boundary = self.along_the_boundary();
+        match boundary {
+            Some(own) if !self.fan().kind().is_closed() && vanishes(first) && vanishes(second) => format!(
+                "no tangent plane: two modes that vanish along the boundary, {a} and {b}, are not below the boundary's own {}",
+                in_words(&own)
+            ),
+            _ => format!("no tangent plane found: the characteristic map of {a} and {b} folds at the vertex"),
+        }
+    }
+
+    /// The largest eigenvalue after 1 that belongs to the boundary's own points.
+    fn along_the_boundary(&self) -> Option<Eigenvalue> {
+        let first = self.local.index(self.ring()[0])?;
+        let own = |e: &&Eigenvalue| self.cores.cores[e.core].iter().any(|node| node.point() == first);
+        self.spectrum.after_one().find(own).copied()
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Orientation {
+    CounterClockwise,
+    Clockwise,
+    Neither,
+}
+
+/// The determinant of two edges and the angle between them.
+fn turn([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> (f64, f64) {
+    let sine = ax * by - ay * bx;
+    (sine, libm::atan2(sine, ax * bx + ay * by))
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+/// The entry of the largest modulus.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |top: f64, value| if value.abs() > top.abs() { *value } else { top })
+}
+
+/// A number in a sentence.
+fn short(value: f64) -> String {
+    let text = format!("{value:.8}");
+    text.trim_end_matches('0').trim_end_matches('.').to_string()
+}
+
+fn in_words(e: &Eigenvalue) -> String {
+    match e.real() {
+        Some(value) => short(value),
+        None => {
+            format!("{} {} {}i", short(e.value.re), if e.value.im < 0.0 { '-' } else { '+' }, short(e.value.im.abs()))
+        }
+    }
+}
