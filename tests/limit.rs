@@ -282,3 +282,60 @@ fn semi_sharp_creases_are_refined_away_first() {
     assert_eq!(limits.steps_before(&level(&shape)), 2);
     check_levels("loop", &shape, 3, [1e-13, 1e-10]);
 }
+
+fn open_meshes(triangles: bool) -> Vec<PolygonSoup> {
+    let fans = if triangles { 1..=5 } else { 1..=3 };
+    let rest = [shapes::tube(3, 5, triangles), shapes::disc(5, triangles), shapes::grid(3, 3, triangles)];
+    rest.into_iter().chain(fans.map(|k| shapes::fan(k, triangles))).collect()
+}
+
+/// Tubes, discs, grids, fans: on the boundary as well as inside.
+#[test]
+fn limits_from_level_0_and_level_4_agree_on_open_meshes() {
+    for (id, triangles) in [("loop", true), ("loop-warren", true), ("catmull-clark", false)] {
+        for shape in open_meshes(triangles) {
+            check_levels(id, &shaken(shape), 4, [1e-13, 1e-10]);
+        }
+    }
+}
+
+/// Creases, a dart at each of their ends, corners where three meet.
+#[test]
+fn limits_agree_on_creases_darts_and_corners() {
+    for (id, shape) in [
+        ("loop", shapes::many_valences()),
+        ("catmull-clark", shapes::prism(5)),
+        ("catmull-clark", shapes::many_valences()),
+    ] {
+        let mesh = HalfEdgeMesh::new(shape.positions.len(), shape.faces.clone()).unwrap();
+        let forever = |ends: [u32; 2]| Crease { ends, sharpness: f64::INFINITY };
+        let face = |f: usize| mesh.faces().face(f).to_vec();
+        let (a, b) = (face(0), face(3));
+        for creases in [
+            vec![forever([a[0], a[1]])],
+            vec![forever([a[0], a[1]]), forever([a[1], a[2]])],
+            vec![forever([a[0], a[1]]), forever([a[1], a[2]]), forever([b[0], b[1]]), forever([b[1], b[2]])],
+        ] {
+            let shape = shaken(PolygonSoup { creases, ..shape.clone() });
+            check_levels(id, &shape, 4, [1e-13, 1e-10]);
+        }
+        let mut cornered = shaken(shape.clone());
+        cornered.corners = vec![2];
+        let (scheme, book) = open(id);
+        let surface = limit(&scheme, &book, &level(&cornered));
+        assert_eq!(surface.positions[2], cornered.positions[2]);
+        assert!(surface.without_normal.keys().any(|why| why.contains("no tangent plane")), "a cone has none");
+    }
+}
+
+/// Where plain boundaries have no tangent plane it is said: k >= 6 triangles, k >= 4 quads.
+#[test]
+fn a_missing_tangent_plane_is_told() {
+    for (id, triangles, most) in [("loop", true, 5), ("catmull-clark", false, 3)] {
+        let (scheme, book) = open(id);
+        for k in 1..=most + 3 {
+            let surface = limit(&scheme, &book, &level(&shaken(shapes::fan(k, triangles))));
+            assert_eq!(surface.normals[0] != [0.0; 3], k <= most, "{id}: k = {k}: {:?}", surface.without_normal);
+        }
+    }
+}

@@ -12,6 +12,7 @@ use crate::refine::{Level, NotRefinable, Obstacle, Refiner, Route, lattice_of};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
+use std::ops::Range;
 
 /// Limit points and normals of a mesh's vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -87,6 +88,19 @@ impl<'a> Limits<'a> {
         Ok(Limits { refiner: refiner.clone(), lattice, places, near: refiner.is_compact(), reach })
     }
 
+    /// The masks of a place.
+    ///
+    /// # Errors
+    /// When a weight has no value there, or the place is beyond a limit.
+    pub fn masks(&self, place: Place) -> Result<PlaceMasks, Obstacle> {
+        self.places.at(place)
+    }
+
+    /// How many rings of vertices masks may look at.
+    pub fn reach(&self) -> usize {
+        self.reach
+    }
+
     /// The steps that a level is refined by before its masks are applied.
     pub fn steps_before(&self, level: &Level<f64>) -> usize {
         let ending = level.tags.most_steps().ceil() as usize;
@@ -123,45 +137,55 @@ impl<'a> Limits<'a> {
     }
 
     fn applied(&self, at: &Level<f64>, level: &Level<f64>) -> Result<LimitSurface, NoLimit> {
-        let vertices = 0..level.mesh.vertices() as u32;
-        let faces = self.faces_of_vertices(level)?;
-        let sectors = |vertex: u32| match &faces {
-            Some(faces) => vec![central_face(&at.mesh, faces[vertex as usize])],
-            None => sectors(at, vertex),
-        };
-        let collect = |mut places: BTreeSet<Place>, vertex: u32| {
-            places.extend(sectors(vertex).into_iter().map(|sector| sector.place));
-            places
-        };
-        let join = |mut a: BTreeSet<Place>, mut b: BTreeSet<Place>| {
-            a.append(&mut b);
-            a
-        };
-        let places = vertices.clone().into_par_iter().fold(BTreeSet::new, collect).reduce(BTreeSet::new, join);
-        let mut masks = BTreeMap::new();
-        for place in places {
-            masks.insert(place, self.places.at(place)?);
+        if self.refiner.split() == Split::Dual {
+            return self.of_faces(at, self.faces_of_vertices(level)?);
         }
-        let masked = Masked { at, lattice: self.lattice, masks };
-        let points: Vec<PointAndNormal> = vertices
-            .into_par_iter()
-            .map(|vertex| masked.point(&sectors(vertex)).map_err(|why| NoLimit::Vertex(vertex, why)))
-            .collect::<Result<_, _>>()?;
-        Ok(surface(points))
+        self.at_sectors(at, level.mesh.vertices(), |vertex| sectors(at, vertex as u32))
     }
 
-    /// Dual: the face that each vertex becomes in one step, where the level that masks are applied to is one step after all others.
-    fn faces_of_vertices(&self, level: &Level<f64>) -> Result<Option<Vec<usize>>, NoLimit> {
-        if self.refiner.split() != Split::Dual {
-            return Ok(None);
-        }
+    /// Dual: the faces that the vertices of a mesh become in one step. In later steps they keep their numbers.
+    ///
+    /// # Errors
+    /// A vertex on the boundary, which becomes no face.
+    pub fn faces_of_vertices(&self, level: &Level<f64>) -> Result<Range<usize>, NoLimit> {
         let boundary = |(_, h): &(usize, &u32)| level.mesh.boundary_at(**h).is_some();
         if let Some((vertex, _)) = level.mesh.vertex_edges().iter().enumerate().find(boundary) {
             let why = "it lies on the boundary, which recedes under a dual split".to_string();
             return Err(NoLimit::Vertex(vertex as u32, why));
         }
         let before = level.mesh.faces().len() + level.mesh.edge_count();
-        Ok(Some((before..before + level.mesh.vertices()).collect()))
+        Ok(before..before + level.mesh.vertices())
+    }
+
+    /// Dual: the limit points and normals of the middles of faces.
+    ///
+    /// # Errors
+    /// When a weight has no value, or a face has no limit point.
+    pub fn of_faces(&self, at: &Level<f64>, faces: Range<usize>) -> Result<LimitSurface, NoLimit> {
+        self.at_sectors(at, faces.len(), |index| vec![central_face(&at.mesh, faces.start + index)])
+    }
+
+    fn at_sectors(
+        &self,
+        at: &Level<f64>,
+        count: usize,
+        sectors: impl Fn(usize) -> Vec<Sector> + Sync,
+    ) -> Result<LimitSurface, NoLimit> {
+        let collect = |mut places: BTreeSet<Place>, index: usize| {
+            places.extend(sectors(index).into_iter().map(|sector| sector.place));
+            places
+        };
+        let join = |mut a: BTreeSet<Place>, mut b: BTreeSet<Place>| {
+            a.append(&mut b);
+            a
+        };
+        let places = (0..count).into_par_iter().fold(BTreeSet::new, collect).reduce(BTreeSet::new, join);
+        let masks =
+            places.into_iter().map(|place| Ok((place, self.places.at(place)?))).collect::<Result<_, Obstacle>>()?;
+        let masked = Masked { at, lattice: self.lattice, masks };
+        let point = |index: usize| masked.point(&sectors(index)).map_err(|why| NoLimit::Vertex(index as u32, why));
+        let points: Vec<PointAndNormal> = (0..count).into_par_iter().map(point).collect::<Result<_, _>>()?;
+        Ok(surface(points))
     }
 }
 
@@ -287,7 +311,7 @@ pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// The vector over its length, where that is larger than a bound.
-fn unit(v: [f64; 3], least: f64) -> Option<[f64; 3]> {
+pub(super) fn unit(v: [f64; 3], least: f64) -> Option<[f64; 3]> {
     let length = dot(v, v).sqrt();
     (length > least).then(|| v.map(|x| x / length))
 }

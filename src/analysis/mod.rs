@@ -16,6 +16,7 @@ pub mod parts;
 pub mod places;
 pub mod spectra;
 pub mod spectrum;
+pub mod verify;
 
 use crate::mesh::{Lattice, Patch};
 use crate::refine::{Obstacle, PatchRows, Refinement, RegularStencils, lattice_of};

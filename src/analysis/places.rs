@@ -4,9 +4,11 @@
 //! corner, or where a crease ends. The masks of a place are found once, by the same stages as a report's, and applied wherever it occurs.
 //! They are approximate (f64).
 
+use super::boundary::masks::TangentMasks;
+use super::boundary::{BoundaryAnalysis, BoundaryAnalyzer};
 use super::masks::Mask;
 use super::spectra::Spectra;
-use super::spectrum::{NEAR, Spectrum};
+use super::spectrum::{Eigenvalue, NEAR, Spectrum};
 use crate::mesh::{Connectivity, FanKind, HalfEdgeMesh, Label, Lattice};
 use crate::refine::{Obstacle, lattice_of};
 use crate::scheme::{RuleBook, Scheme};
@@ -32,13 +34,26 @@ pub struct PlaceMasks {
     pub limit: Result<LabelledMask, String>,
     /// Two tangent masks, the first times the second pointing outward; each sums to 0.
     pub tangents: Result<[LabelledMask; 2], String>,
-    /// The moduli by which the tangents and what is left beside them shrink in a step: lambda and mu.
-    pub rates: Option<[f64; 2]>,
+    /// How fast tangents and what is left beside them shrink.
+    pub rates: Option<Rates>,
+}
+
+/// Moduli of eigenvalues: in each step lengths shrink by these.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rates {
+    /// Those of the two tangents, the larger first.
+    pub lambda: [f64; 2],
+    /// The largest of all that follow.
+    pub mu: f64,
+    /// The largest Jordan block among those of the tangents: with one of 2 or more, rates are approached slowly.
+    pub jordan: usize,
 }
 
 /// The masks of a scheme's places.
 pub struct Places<'a> {
     spectra: Spectra<'a>,
+    /// Why there is none is told when somebody asks.
+    boundary: Result<BoundaryAnalyzer<'a>, Obstacle>,
     lattice: Lattice,
 }
 
@@ -47,8 +62,10 @@ impl<'a> Places<'a> {
     ///
     /// # Errors
     /// When a weight has no value at the regular valence, or stencils reach too far.
-    pub fn new(scheme: &'a Scheme, _boundary: Option<&'a RuleBook>) -> Result<Places<'a>, Obstacle> {
-        Ok(Places { spectra: Spectra::new(scheme)?, lattice: lattice_of(scheme) })
+    pub fn new(scheme: &'a Scheme, boundary: Option<&'a RuleBook>) -> Result<Places<'a>, Obstacle> {
+        let no_rule = Obstacle::NoRule("vertex.crease");
+        let boundary = boundary.ok_or(no_rule).and_then(|book| BoundaryAnalyzer::new(scheme, book));
+        Ok(Places { spectra: Spectra::new(scheme)?, boundary, lattice: lattice_of(scheme) })
     }
 
     /// The masks of a place.
@@ -58,7 +75,7 @@ impl<'a> Places<'a> {
     pub fn at(&self, place: Place) -> Result<PlaceMasks, Obstacle> {
         match place {
             Place::Inside(valence) => self.spectra.masks(valence),
-            Place::Fan(_) => Err(Obstacle::NoRule("vertex.crease")),
+            Place::Fan(kind) => Ok(of_fan(&self.boundary.as_ref().map_err(Clone::clone)?.at(kind)?)),
             Place::Cone => Ok(cone()),
         }
     }
@@ -103,6 +120,26 @@ pub(super) fn point_at(
     Some(mesh.target(edge))
 }
 
+/// The masks of a vertex on a crease.
+fn of_fan(analysis: &BoundaryAnalysis) -> PlaceMasks {
+    let lambda = |tangents: &TangentMasks| {
+        let [a, b] = tangents.eigenvalues.map(|e| e.modulus());
+        [a.max(b), a.min(b)]
+    };
+    let chosen = |tangents: &TangentMasks, e: &Eigenvalue| {
+        tangents.eigenvalues.iter().any(|own| (own.frequency, own.group) == (e.frequency, e.group))
+    };
+    let rates = |tangents: &TangentMasks| {
+        let mu = analysis.spectrum.after_one().find(|e| !chosen(tangents, e)).map_or(0.0, Eigenvalue::modulus);
+        Rates { lambda: lambda(tangents), mu, jordan: tangents.jordan[0].max(tangents.jordan[1]) }
+    };
+    PlaceMasks {
+        limit: analysis.limit_mask.clone(),
+        rates: analysis.tangent_masks.as_ref().ok().map(rates),
+        tangents: analysis.tangent_masks.as_ref().map(|tangents| tangents.masks.clone()).map_err(Clone::clone),
+    }
+}
+
 /// The masks where a vertex stays and no rule tells what is around it.
 fn cone() -> PlaceMasks {
     let centre = vec![(Label { sector: 0, i: 0, j: 0 }, 1.0)];
@@ -126,12 +163,15 @@ impl Spectra<'_> {
             left.and_then(|left| Mask::tangents(&left, &local))
                 .ok_or_else(|| "a tangent mask can't be computed".to_string())
         });
-        let after = |lambda: &f64| spectrum.after_subdominant().next().map(|mu| [*lambda, mu.modulus()]);
+        let after = |lambda: Eigenvalue| {
+            let mu = spectrum.after_subdominant().next().map_or(0.0, Eigenvalue::modulus);
+            Rates { lambda: [lambda.modulus(); 2], mu, jordan: 1 }
+        };
         Ok(PlaceMasks {
             limit: limit
                 .map(|mask| mask.weights(&local))
                 .ok_or_else(|| "the points do not converge: 1 is not the largest eigenvalue".to_string()),
-            rates: tangents.as_ref().ok().and(spectrum.subdominant()).and_then(|lambda| after(&lambda.modulus())),
+            rates: tangents.as_ref().ok().and(spectrum.subdominant()).map(after),
             tangents: tangents.map(|masks| masks.map(|mask| mask.weights(&local))),
         })
     }
@@ -143,9 +183,9 @@ fn converges(spectrum: &Spectrum) -> bool {
 }
 
 /// The subdominant eigenvalue, where there is a tangent plane: of frequency 1, real and positive, and larger than all that follow.
-fn lambda(spectrum: &Spectrum) -> Result<super::spectrum::Eigenvalue, String> {
+fn lambda(spectrum: &Spectrum) -> Result<Eigenvalue, String> {
     let Some(lambda) = spectrum.subdominant() else { return Err("there is no eigenvalue but 1".to_string()) };
-    let value = |e: &super::spectrum::Eigenvalue| format!("{:.6} of frequency {}", e.modulus(), e.frequency);
+    let value = |e: &Eigenvalue| format!("{:.6} of frequency {}", e.modulus(), e.frequency);
     if !converges(spectrum) {
         return Err("the points do not converge".to_string());
     }

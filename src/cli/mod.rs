@@ -1,7 +1,7 @@
 //! What does the user ask for?
 //!
-//! One file a command. Everything that is printed is printed here; exit status 0 means done, 2 bad usage or bad
-//! input; 1 is kept for checks that say no.
+//! One file a command. Everything that is printed is printed here; exit status 0 means done, 1 that a check says no, 2 bad usage or
+//! bad input.
 
 mod analyze;
 mod catalogue;
@@ -11,6 +11,7 @@ mod mesh_file;
 mod open;
 mod refine;
 mod valences;
+mod verify;
 
 use clap::{Parser, Subcommand};
 use eigenring::fault::Faults;
@@ -27,8 +28,9 @@ const EXAMPLES: &str = "Examples:
   eigenring matrix loop --valence 5 --block 1      a block of the local subdivision matrix
   eigenring refine loop in.obj -o out.ply -l 3     a mesh, refined three times
   eigenring limit loop in.obj -o out.ply           its vertices on the limit surface, with normals
+  eigenring verify loop --valence 3..12            the masks against deep refinement
 
-Exit status: 0 done, 2 bad usage or bad input (1 is kept for checks that say no).";
+Exit status: 0 done, 1 a check says no (verify), 2 bad usage or bad input.";
 
 /// Analyses subdivision schemes: local matrices at any valence, spectra, masks, characteristic maps, smoothness conditions.
 #[derive(Parser)]
@@ -52,6 +54,8 @@ enum Command {
     Refine(refine::Refine),
     /// Push the vertices of a mesh to the limit surface, with normals
     Limit(refine::Limit),
+    /// Check the masks of a scheme against deep refinement of meshes
+    Verify(Box<verify::Verify>),
 }
 
 /// Why a command could not be carried out.
@@ -61,6 +65,8 @@ pub(crate) enum Failure {
     Faults(Faults),
     /// Anything else, in words.
     Message(String),
+    /// A check says no, and has said why.
+    No,
 }
 
 impl From<Faults> for Failure {
@@ -74,6 +80,7 @@ impl fmt::Display for Failure {
         match self {
             Failure::Faults(faults) => f.write_str(&faults.render(io::stderr().is_terminal())),
             Failure::Message(message) => write!(f, "error: {message}"),
+            Failure::No => Ok(()),
         }
     }
 }
@@ -95,9 +102,11 @@ pub(crate) fn run() -> ExitCode {
         Command::Matrix(command) => command.run(),
         Command::Refine(command) => command.run(),
         Command::Limit(command) => command.run(),
+        Command::Verify(command) => command.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::No) => ExitCode::from(1),
         Err(failure) => {
             let _ = writeln!(io::stderr(), "{failure}");
             ExitCode::from(2)

@@ -4,6 +4,7 @@
 //! the canonical patch around one extraordinary point, which extends as far as anybody walks ([`Patch`]), and that around a
 //! vertex on a boundary or crease ([`Fan`]).
 
+mod disc;
 mod faces;
 mod fan;
 mod half_edge;
@@ -17,6 +18,7 @@ mod soup;
 mod split;
 mod tags;
 
+pub use disc::disc;
 pub use faces::{Faces, Sides};
 pub use fan::{Fan, FanKind};
 pub use half_edge::{HalfEdgeMesh, MAX_CORNERS, NONE};

@@ -1,0 +1,226 @@
+//! Do the masks say what the mesh engine does?
+//!
+//! For each place random points on a mesh around it, refined deeply ([`zoom`]), against its masks applied once to the first level: the
+//! limit point, the normal, and how fast rings shrink. And on whole meshes: limits from one level against those from some steps later.
+//! Everything is `f64` arithmetic with the tolerances stated: evidence, not proof.
+
+mod zoom;
+
+use super::limit::{LimitSurface, Limits, NoLimit, cross, dot, unit};
+use super::places::{LabelledMask, Place, PlaceMasks, Rates};
+use crate::mesh::{Label, Split};
+use crate::refine::{Level, Obstacle, Refiner, Route};
+use zoom::Zoom;
+
+/// How far limit points may be apart: rounding of some hundred steps on points of size 1.
+pub const POSITION: f64 = 1e-12;
+
+/// How far normals may be apart, in radians, where refinement goes deep enough to tell.
+pub const NORMAL: f64 = 1e-9;
+
+/// The most steps; and the most points of all of them.
+const MOST_STEPS: usize = 500;
+const MOST_POINTS: usize = 3_000_000;
+
+/// What was seen at a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Check {
+    /// The place.
+    pub place: Place,
+    /// The number of steps that were made.
+    pub steps: usize,
+    /// The largest difference of a coordinate of the limit point.
+    pub position: f64,
+    /// The angle between the normals, or why there is no normal.
+    pub normal: Result<Angle, String>,
+    /// The rates by the analysis, and as observed in the last steps.
+    pub rates: Option<(Rates, Observed)>,
+    /// Whether masks and refinement agree.
+    pub agrees: bool,
+}
+
+/// The angle between two normals, and how large it may be: slow convergence leaves a rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Angle {
+    /// In radians.
+    pub angle: f64,
+    /// The tolerance.
+    pub bound: f64,
+}
+
+/// How fast rings were seen to shrink in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Observed {
+    /// Along the two tangents, the larger first.
+    pub lambda: [f64; 2],
+    /// Across them; `None` where nothing is left to be seen.
+    pub mu: Option<f64>,
+}
+
+/// A scheme's places, ready to be checked.
+pub struct Verifier<'a> {
+    refiner: Refiner<'a>,
+    limits: Limits<'a>,
+}
+
+impl<'a> Verifier<'a> {
+    /// Prepares the masks of a refiner's scheme.
+    ///
+    /// # Errors
+    /// When a weight has no value at the regular valence, or stencils reach too far.
+    pub fn new(refiner: &Refiner<'a>) -> Result<Verifier<'a>, Obstacle> {
+        Ok(Verifier { refiner: refiner.clone(), limits: Limits::new(refiner)? })
+    }
+
+    /// The masks of a place.
+    ///
+    /// # Errors
+    /// When a weight has no value there, or the place is beyond a limit.
+    pub fn masks(&self, place: Place) -> Result<PlaceMasks, Obstacle> {
+        self.limits.masks(place)
+    }
+
+    /// Checks masks at a place on some random neighbourhoods; the worst of them is told.
+    ///
+    /// # Errors
+    /// When a point can't be made.
+    pub fn check(&self, place: Place, masks: &PlaceMasks, trials: u64, seed: u64) -> Result<Check, NoLimit> {
+        let mut worst: Option<Check> = None;
+        for trial in 0..trials.max(1) {
+            let check = self.trial(place, masks, seed.wrapping_add(trial))?;
+            worst = Some(match worst {
+                Some(before) => before.with(check),
+                None => check,
+            });
+        }
+        worst.ok_or_else(|| NoLimit::Vertex(0, "no trial was made".to_string()))
+    }
+
+    fn trial(&self, place: Place, masks: &PlaceMasks, seed: u64) -> Result<Check, NoLimit> {
+        let mut zoom = Zoom::random(&self.refiner, self.limits.reach(), place, seed)?;
+        let why = |why: &String| NoLimit::Vertex(0, why.clone());
+        let point = zoom.apply(masks.limit.as_ref().map_err(why)?, [0.0; 3]);
+        let tangents = masks.tangents.as_ref().map(|masks| masks.each_ref().map(|mask| zoom.apply(mask, point)));
+        let expected = tangents.map_err(Clone::clone).and_then(|[a, b]| {
+            unit(cross(a, b), 0.0).ok_or_else(|| "its tangents are parallel for these points".to_string())
+        });
+        let steps = steps_needed(masks.rates.as_ref(), zoom.points());
+        let mut observed = Vec::with_capacity(steps);
+        for _ in 0..steps {
+            observed.push(zoom.step()?);
+        }
+        let position = (0..3).map(|axis| (point[axis] - zoom.centre()[axis]).abs()).fold(0.0, f64::max);
+        let normal = expected.map(|normal| Angle {
+            angle: angle(normal, zoom.normal()),
+            bound: masks.rates.map_or(NORMAL, |rates| normal_bound(&rates, steps)),
+        });
+        let rates = masks.rates.map(|rates| (rates, zoom::observed(&observed)));
+        let agrees = position <= POSITION && normal.as_ref().is_ok_and(|n| n.angle <= n.bound) | normal.is_err();
+        Ok(Check { place, steps, position, normal, rates, agrees })
+    }
+
+    /// The largest differences of limit points and of normals between a level and one some steps later.
+    ///
+    /// # Errors
+    /// When the level can't be refined, or a vertex has no limit point.
+    pub fn levels(&self, level: &Level<f64>, steps: usize) -> Result<Levels, NoLimit> {
+        let first = self.limits.of(level, &|| ())?;
+        let mut later: Option<Level<f64>> = None;
+        for _ in 0..steps {
+            later = Some(self.refiner.step(later.as_ref().unwrap_or(level), Route::Fast)?);
+        }
+        let later = later.as_ref().unwrap_or(level);
+        let second = match self.refiner.split() {
+            // a vertex becomes a face, which keeps its number
+            Split::Dual if steps > 0 => self.limits.of_faces(later, self.limits.faces_of_vertices(level)?)?,
+            _ => self.limits.of(later, &|| ())?,
+        };
+        Ok(Levels::between(&first, &second, size(&level.positions)))
+    }
+}
+
+/// Limits from a level and from a later one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Levels {
+    /// The number of vertices compared.
+    pub vertices: usize,
+    /// The largest difference of a coordinate, over the size of the mesh.
+    pub position: f64,
+    /// The largest angle between normals.
+    pub normal: f64,
+    /// The number of vertices without a normal at one level or both.
+    pub without_normal: usize,
+    /// Whether they agree.
+    pub agrees: bool,
+}
+
+impl Levels {
+    fn between(first: &LimitSurface, second: &LimitSurface, size: f64) -> Levels {
+        let mut found = Levels { vertices: 0, position: 0.0, normal: 0.0, without_normal: 0, agrees: true };
+        for (vertex, position) in first.positions.iter().enumerate() {
+            found.vertices += 1;
+            let apart = (0..3).map(|axis| (position[axis] - second.positions[vertex][axis]).abs()).fold(0.0, f64::max);
+            found.position = found.position.max(apart / size);
+            let normals = [first.normals[vertex], second.normals[vertex]];
+            match normals.contains(&[0.0; 3]) {
+                true => found.without_normal += 1,
+                false => found.normal = found.normal.max(angle(normals[0], normals[1])),
+            }
+        }
+        found.agrees = found.position <= POSITION && found.normal <= NORMAL;
+        found
+    }
+}
+
+impl Check {
+    /// The worse of two checks of one place.
+    fn with(self, other: Check) -> Check {
+        let normal = match (self.normal, other.normal) {
+            (Ok(a), Ok(b)) => Ok(if a.angle > b.angle { a } else { b }),
+            (Err(_), Ok(known)) | (Ok(known), Err(_)) => Ok(known),
+            (Err(why), Err(_)) => Err(why),
+        };
+        let position = self.position.max(other.position);
+        Check { normal, position, agrees: self.agrees && other.agrees, ..other }
+    }
+}
+
+/// As many steps as it takes until the part across the tangents is lost in rounding, within bounds.
+fn steps_needed(rates: Option<&Rates>, points: usize) -> usize {
+    let ratio = rates.map_or(0.5, |rates| rates.mu / rates.lambda[1]);
+    let position = rates.map_or(0.9, |rates| rates.lambda[0]);
+    let until =
+        |ratio: f64| if ratio < 1.0 { (libm::log(1e-15) / libm::log(ratio.max(1e-3))).ceil() } else { f64::INFINITY };
+    let most = MOST_STEPS.min(MOST_POINTS / points.max(1)).max(60);
+    (until(ratio).max(until(position)) as usize).clamp(60, most)
+}
+
+/// What slow convergence leaves of the angle: a multiple of (mu/lambda)^m, and of 1/m beside a Jordan block.
+fn normal_bound(rates: &Rates, steps: usize) -> f64 {
+    let rest = libm::pow(rates.mu / rates.lambda[1], steps as f64);
+    let block = if rates.jordan > 1 { 1.0 / steps as f64 } else { 0.0 };
+    NORMAL.max(100.0 * rest).max(10.0 * block)
+}
+
+fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let sine = dot(cross(a, b), cross(a, b)).sqrt();
+    libm::atan2(sine, dot(a, b))
+}
+
+/// The largest coordinate, at least.
+fn size(positions: &[[f64; 3]]) -> f64 {
+    positions.iter().flatten().fold(f64::MIN_POSITIVE, |top, x| top.max(x.abs()))
+}
+
+/// A mask applied to points that are given by their labels, less an origin.
+fn applied(mask: &LabelledMask, labels: &[Label], positions: &[[f64; 3]], origin: [f64; 3]) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for (label, weight) in mask {
+        // a label beyond the disc stands for a point that the mask must not have
+        let Some(at) = labels.iter().position(|own| own == label) else { return [f64::NAN; 3] };
+        for axis in 0..3 {
+            sum[axis] += weight * (positions[at][axis] - origin[axis]);
+        }
+    }
+    sum
+}
