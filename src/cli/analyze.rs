@@ -1,13 +1,13 @@
 //! `analyze`: what does this scheme do, at these valences?
 
 use super::open::open;
-use super::valences::Valences;
+use super::valences::{Faces, Valences};
 use super::{Failure, failure, print};
 use clap::{Args, ValueEnum};
 use eigenring::refine::Obstacle;
-use eigenring::report::ranges;
 use eigenring::report::sweep::{self, Sweep, SweepRequest};
 use eigenring::report::{self, NoReport, Picture, Report, Study};
+use eigenring::report::{boundary, ranges};
 use eigenring::scheme::{Interval, Scheme};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
@@ -17,7 +17,7 @@ const EXAMPLES: &str = "Examples:
   eigenring analyze loop --valence 3..12
   eigenring analyze my-scheme.toml --valence 3,4,7..9,50 --out my-report
   eigenring analyze modified-butterfly --set w=1/64 --format md
-  eigenring analyze catmull-clark --valence 5 --format json | less";
+  eigenring analyze catmull-clark --valence 5 --boundary 1..6 --format json | less";
 
 /// Analyses a scheme and writes its report: Markdown, LaTeX, CSV, JSON, and pictures as SVG and PNG.
 #[derive(Args)]
@@ -40,6 +40,9 @@ pub(crate) struct Analyze {
     /// Find the values of a parameter for which spectral conditions hold, exactly: w=0..1/4
     #[arg(long, value_name = "NAME=LOW..HIGH", value_parser = Interval::parse)]
     range: Option<Interval>,
+    /// Add what the scheme does at boundaries, creases, corners and darts, for these numbers of faces: 1..8, or a list
+    #[arg(long, value_name = "LIST")]
+    boundary: Option<Faces>,
     /// The folder that the report is written into [default: reports/SCHEME]
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -82,14 +85,21 @@ impl Analyze {
             bar.finish_and_clear();
             study.report.ranges = found.map_err(failure)?;
         }
+        if let Some(faces) = &self.boundary {
+            let bar = progress_bar(&faces.0);
+            let found = boundary::boundary(&scheme, &faces.0, self.digits.into(), &|| bar.inc(1));
+            bar.finish_and_clear();
+            study.report.add_boundary(found.map_err(|error| explain(&scheme, error))?);
+        }
         match self.format {
             Some(format) => print(&one_form(&study.report, format)?),
             None => {
                 let folder = self.out.unwrap_or_else(|| Path::new("reports").join(&scheme.id));
                 let written = write(&study, &folder)?;
                 let sweep = study.report.sweep.as_ref().map_or(String::new(), sweep::terminal);
-                let sweep = ranges::terminal(&study.report.ranges) + &sweep;
-                print(&format!("{}{sweep}\n{}", report::terminal(&study.report), files_line(&folder, &written)))
+                let added =
+                    boundary::terminal(&study.report.boundary) + &ranges::terminal(&study.report.ranges) + &sweep;
+                print(&format!("{}{added}\n{}", report::terminal(&study.report), files_line(&folder, &written)))
             }
         }
     }
@@ -135,10 +145,19 @@ pub(crate) fn explain(scheme: &Scheme, error: impl Into<NoReport>) -> Failure {
 fn one_form(report: &Report, format: Format) -> Result<String, Failure> {
     Ok(match format {
         Format::Json => report::json(report).map_err(|error| failure(error.to_string()))?,
-        Format::Csv => report.sweep.as_ref().map_or_else(|| report::csv(report), sweep::sweep_csv),
+        Format::Csv => one_csv(report),
         Format::Md => report::markdown(report, &[]),
         Format::Latex => report::latex(report, &[]),
     })
+}
+
+/// One table: that of the sweep or of the boundary, where one is asked for.
+fn one_csv(report: &Report) -> String {
+    match &report.sweep {
+        Some(sweep) => sweep::sweep_csv(sweep),
+        None if !report.boundary.is_empty() => boundary::boundary_csv(&report.boundary),
+        None => report::csv(report),
+    }
 }
 
 /// Writes every file of the report; gives their names.
@@ -148,6 +167,9 @@ fn write(study: &Study, folder: &Path) -> Result<Vec<String>, Failure> {
     let mut files: Vec<(String, Vec<u8>)> = texts.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
     if let Some(sweep) = &study.report.sweep {
         files.push(("sweep.csv".to_string(), sweep::sweep_csv(sweep).into_bytes()));
+    }
+    if !study.report.boundary.is_empty() {
+        files.push(("boundary.csv".to_string(), boundary::boundary_csv(&study.report.boundary).into_bytes()));
     }
     for (picture, png) in pictures.iter().zip(painted(pictures)) {
         let png = png.map_err(|error| failure(format!("the picture {}: {error}", picture.name)))?;

@@ -57,6 +57,6 @@ fn push_mask(text: &mut String, n: usize, quantity: &str, mask: Option<&[WeightR
 }
 
 /// A cell with a comma or a quote in it, by RFC 4180.
-fn quoted(cell: &str) -> String {
+pub(super) fn quoted(cell: &str) -> String {
     if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.to_string() }
 }

@@ -3,6 +3,7 @@
 //! The report of a scheme: its [`model`] is plain data, from which tables, pictures and files are made. Committed output
 //! must not see the machine: no time, no path, no order that depends on hashing.
 
+pub mod boundary;
 mod csv;
 mod files;
 pub mod formulas;

@@ -3,6 +3,7 @@
 //! Everything that tables, pictures and other programs read, as plain data; as JSON it is the contract of the README
 //! (`"format": 1`). Lists are in a fixed order and floats print shortest: the same input gives the same bytes.
 
+use super::boundary::BoundaryReport;
 use super::formulas::{AllValencesReport, all_valences};
 use super::ranges::RangeReport;
 use super::sweep::Sweep;
@@ -54,6 +55,9 @@ pub struct Report {
     /// Where conditions hold as a parameter changes, where that is asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ranges: Vec<RangeReport>,
+    /// What was found at boundaries, creases, corners and darts, where that is asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub boundary: Vec<BoundaryReport>,
 }
 
 /// How schemes are classified.
@@ -144,7 +148,7 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    fn approximate(value: [f64; 2]) -> Quantity {
+    pub(super) fn approximate(value: [f64; 2]) -> Quantity {
         Quantity { value, decimal: None, exact: None, formula: None, latex: None }
     }
 
@@ -158,7 +162,7 @@ impl Quantity {
         }
     }
 
-    fn of_eigenvalue(e: &ExactEigenvalue, digits: usize) -> Quantity {
+    pub(super) fn of_eigenvalue(e: &ExactEigenvalue, digits: usize) -> Quantity {
         let part = |value: &Value| value.midpoint_f64() + 0.0;
         let decimal = match (e.is_real(), e.re.decimal(digits), e.im.abs().decimal(digits)) {
             (true, re, _) => re,
@@ -368,7 +372,20 @@ impl Report {
             claims,
             sweep: None,
             ranges: vec![],
+            boundary: vec![],
         })
+    }
+}
+
+impl Report {
+    /// Adds what was found at boundaries, with its sources.
+    pub fn add_boundary(&mut self, found: Vec<BoundaryReport>) {
+        for key in found.iter().flat_map(|own| &own.source) {
+            if self.sources.iter().all(|known| known.key != *key) {
+                self.sources.push(reference(key));
+            }
+        }
+        self.boundary = found;
     }
 }
 
@@ -382,8 +399,12 @@ fn references(scheme: &Scheme, valences: &[ValenceReport], claims: &[ClaimCheck]
             keys.push(key);
         }
     }
-    let citation = |key: &String| catalogue::sources().get(key).map_or(key.clone(), catalogue::Source::citation);
-    keys.into_iter().map(|key| Reference { key: key.clone(), citation: citation(key) }).collect()
+    keys.into_iter().map(|key| reference(key)).collect()
+}
+
+fn reference(key: &str) -> Reference {
+    let citation = catalogue::sources().get(key).map_or(key.to_string(), catalogue::Source::citation);
+    Reference { key: key.to_string(), citation }
 }
 
 fn valence_report(analysis: &Analysis, verdicts: &[Verdict], names: &OrbitNames, digits: usize) -> ValenceReport {

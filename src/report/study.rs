@@ -43,11 +43,13 @@ impl From<Obstacle> for NoReport {
     }
 }
 
-/// Faults keep their place in the scheme file.
-fn of_scheme(scheme: &Scheme) -> impl Fn(Obstacle) -> NoReport + '_ {
-    |obstacle| match obstacle {
-        Obstacle::Fault(fault) => NoReport::Faults(scheme.book.faults(vec![fault])),
-        other => NoReport::Obstacle(other),
+impl NoReport {
+    /// Faults keep their place in the scheme file.
+    pub(super) fn of(scheme: &Scheme) -> impl Fn(Obstacle) -> NoReport + '_ {
+        |obstacle| match obstacle {
+            Obstacle::Fault(fault) => NoReport::Faults(scheme.book.faults(vec![fault])),
+            other => NoReport::Obstacle(other),
+        }
     }
 }
 
@@ -72,7 +74,7 @@ impl Study {
         draw: bool,
         done: &dyn Fn(),
     ) -> Result<Study, NoReport> {
-        let place = of_scheme(scheme);
+        let place = NoReport::of(scheme);
         let sums = refine::check(scheme, valences).map_err(NoReport::Faults)?;
         let analyzer = Analyzer::new(scheme).map_err(&place)?;
         let mut analyses = Vec::with_capacity(valences.len());

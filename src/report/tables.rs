@@ -37,7 +37,7 @@ impl Cell {
     }
 
     /// A number with the digits asked for, and its exact form beside it up to a length; `≈` before what is approximate.
-    fn number(quantity: &Quantity, longest: usize) -> Cell {
+    pub(super) fn number(quantity: &Quantity, longest: usize) -> Cell {
         let decimal = quantity.decimal.clone().unwrap_or_else(|| format!("≈ {}", complex(quantity.value)));
         let text = quantity.exact.as_ref().map(|exact| pretty(exact)).filter(|text| text.chars().count() <= longest);
         match (text, &quantity.latex) {
@@ -53,7 +53,7 @@ impl Cell {
     }
 
     /// Cells in a row, with commas.
-    fn joined(cells: &[Cell]) -> Cell {
+    pub(super) fn joined(cells: &[Cell]) -> Cell {
         let texts: Vec<&str> = cells.iter().map(|cell| cell.text.as_str()).collect();
         let latex: Vec<&str> = cells.iter().map(|cell| cell.latex.as_ref().unwrap_or(&cell.text).as_str()).collect();
         Cell { text: texts.join(", "), latex: Some(latex.join(", ")) }
@@ -71,7 +71,7 @@ fn pretty(formula: &str) -> String {
 }
 
 /// Exact forms longer than this stand in the table of all eigenvalues only.
-const SHORT: usize = 22;
+pub(super) const SHORT: usize = 22;
 
 /// A table with its title.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,6 +105,7 @@ pub fn tables(report: &Report) -> Vec<Table> {
         tangent_masks(report),
         conditions(report),
     ]);
+    tables.extend(super::boundary::tables(&report.boundary));
     tables.extend(super::ranges::table(&report.ranges));
     tables.extend(report.sweep.as_ref().map(super::sweep::table));
     if !report.claims.is_empty() {

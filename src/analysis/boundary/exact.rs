@@ -68,6 +68,12 @@ impl ExactHalves {
         Some(if near.next().is_none() { first.structure } else { None })
     }
 
+    /// The eigenvalue that an approximate one, or a cluster of such, stands for; `None` where that are several.
+    pub fn eigenvalue_at(&self, e: &Eigenvalue) -> Option<&ExactEigenvalue> {
+        let mut near = self.near(e);
+        near.next().filter(|_| near.next().is_none())
+    }
+
     /// Whether two approximate eigenvalues are of one modulus.
     pub fn are_level(&self, a: &Eigenvalue, b: &Eigenvalue) -> bool {
         let level = |e: &Eigenvalue| self.near(e).next().map(|e| e.level);

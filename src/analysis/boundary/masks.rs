@@ -5,7 +5,8 @@
 //! lambda_i^m (l_i x_0) r_i + smaller terms. They need not be equal. The faces around the vertex have, more and more exactly, the shape of the
 //! plane control net (r_1, r_2), one factor stretched: where that net's faces around the centre are all turned counter-clockwise,
 //! the normals of these faces converge to that of the plane of the two tangents. An eigenvalue with a single Jordan block of size s
-//! grows like m^(s-1) lambda^m, again with one left and one right vector; whether a block is there exact numbers decide.
+//! grows like m^(s-1) lambda^m, again with one left and one right vector; whether a block is there exact numbers decide. Where r_2 vanishes
+//! its next generalised vector, which has the same tangent, shows: the net is (r_1, m r_2/lambda_2 + g_2), m large.
 
 use super::super::cores::Cores;
 use super::super::spectrum::{Eigenvalue, NEAR, Spectrum};
@@ -22,8 +23,14 @@ const ROUNDING: f64 = 1e-14;
 /// Determinants, relative to the largest product, that are taken for 0.
 const FLAT: f64 = 1e-9;
 
-/// The step off an eigenvalue at which its Jordan block is looked at.
-const STEP: f64 = 1e-4;
+/// Singular values that are taken for 0 where exact numbers say that there is one.
+const SINGULAR: f64 = 1e-9;
+
+/// The most sweeps of a singular value decomposition.
+const MAX_SWEEPS: usize = 1_000;
+
+/// A number of steps after which a Jordan block shows its shape.
+const MANY_STEPS: f64 = 1e4;
 
 /// Points of the fan, each with a weight.
 pub type FanMask = Vec<(Label, f64)>;
@@ -38,7 +45,8 @@ pub struct TangentMasks {
     pub eigenvalues: [Eigenvalue; 2],
     /// The size of its Jordan block: 1 where there is none. With a block normals converge slowly, like 1/m.
     pub jordan: [usize; 2],
-    /// The points of the characteristic map: for each point of the neighbourhood the values of the two right vectors.
+    /// The points of the characteristic map: for each point of the neighbourhood the values of the two right vectors (eigenvectors,
+    /// where there is a Jordan block).
     pub net: Vec<[f64; 2]>,
 }
 
@@ -57,6 +65,8 @@ struct Lead {
     eigenvalue: Eigenvalue,
     /// The size of its Jordan block.
     jordan: usize,
+    /// Whether the block's next vector grows faster than everything but the two leading vectors.
+    next_follows: bool,
 }
 
 /// A leading eigenvalue with its vectors on all points: x_m has the part m^(s-1) lambda^m c (left x) right with some c > 0.
@@ -64,11 +74,21 @@ struct Pair {
     lead: Lead,
     left: Vec<f64>,
     right: Vec<f64>,
+    /// Where there is a block and it matters, a vector with (S - lambda) next = right.
+    next: Option<Vec<f64>>,
 }
 
 impl Pair {
     fn turned(&mut self) {
-        self.left.iter_mut().chain(&mut self.right).for_each(|value| *value = -*value);
+        let next = self.next.iter_mut().flatten();
+        self.left.iter_mut().chain(&mut self.right).chain(next).for_each(|value| *value = -*value);
+    }
+
+    /// What the pair looks like after many steps, up to a factor.
+    fn shape(&self) -> Vec<f64> {
+        let Some(next) = &self.next else { return self.right.clone() };
+        let own = largest(&self.right).abs() * largest(next).abs().recip();
+        self.right.iter().zip(next).map(|(r, g)| r + g * own / MANY_STEPS).collect()
     }
 }
 
@@ -110,8 +130,7 @@ impl Stages<'_> {
             (a, b) = (b, a);
         }
         let (mut first, mut second) = (self.pair(a)?, self.pair(b)?);
-        let ahead = self.value(&first.right, self.ring()[0]);
-        if if ahead == 0.0 { largest(&first.right) } else { ahead } < 0.0 {
+        if self.ahead(&first) < 0.0 {
             first.turned();
         }
         match self.orientation(&first, &second) {
@@ -126,6 +145,13 @@ impl Stages<'_> {
             jordan: [a.jordan, b.jordan],
             net: first.right.iter().zip(&second.right).map(|(x, y)| [x + 0.0, y + 0.0]).collect(),
         })
+    }
+
+    /// How far the edge neighbour on spoke 0 lies in the direction of a tangent; where it does not, the farthest point.
+    fn ahead(&self, pair: &Pair) -> f64 {
+        let shape = pair.shape();
+        let own = self.value(&shape, self.ring()[0]);
+        if own.abs() > FLAT * largest(&shape).abs() { own } else { largest(&shape) }
     }
 
     /// The eigenvalues after 1 down to the modulus of the second, one for each cluster.
@@ -159,7 +185,10 @@ impl Stages<'_> {
         }
         match others.first() {
             Some(third) if third.jordan == second.jordan => Err(self.why_third_is_level(first, second)),
-            _ => Ok([*first, *second]),
+            third => {
+                let slower = third.is_none_or(|third| third.jordan + 1 < second.jordan);
+                Ok([*first, Lead { next_follows: start == 1 && slower, ..*second }])
+            }
         }
     }
 
@@ -170,7 +199,7 @@ impl Stages<'_> {
             return Err(format!("no tangent plane: {value} is not real and positive"));
         }
         if e.is_isolated() {
-            return Ok(Lead { eigenvalue: *e, jordan: 1 });
+            return Ok(Lead { eigenvalue: *e, jordan: 1, next_follows: false });
         }
         let count = e.cluster;
         match self.exact.and_then(|exact| exact.structure_at(e)) {
@@ -178,7 +207,9 @@ impl Stages<'_> {
                 "undecided: {count} eigenvalues are approximately equal at {value} (a Jordan block or not)"
             )),
             Some(None) => Err(format!("undecided: {count} eigenvalues at {value} are too near each other for f64")),
-            Some(Some(known)) if known.geometric == 1 => Ok(Lead { eigenvalue: *e, jordan: known.largest }),
+            Some(Some(known)) if known.geometric == 1 => {
+                Ok(Lead { eigenvalue: *e, jordan: known.largest, next_follows: false })
+            }
             Some(Some(known)) => {
                 Err(format!("no tangent plane found: {value} has {} eigenvectors of one parity", known.geometric))
             }
@@ -201,23 +232,32 @@ impl Stages<'_> {
         let none = || format!("no tangent plane found: no vectors for {}", in_words(e));
         let (mut left, _) = self.spectrum.only_left_vector(self.halves, self.cores, e).ok_or_else(none)?;
         let (right, _) = self.spectrum.only_right_vector(self.halves, self.cores, e).ok_or_else(none)?;
-        let product = if lead.jordan == 1 { dot(&left, &right) } else { self.through_the_block(&lead, &left, &right) };
+        let chain = self.chain(&lead, &right).ok_or_else(none)?;
+        let product = dot(&left, chain.last().unwrap_or(&right));
         if product.is_nan() || product.abs() <= NEAR * largest(&left).abs() * largest(&right).abs() {
             return Err(none());
         }
         if product < 0.0 {
             left.iter_mut().for_each(|value| *value = -*value);
         }
-        Ok(Pair { lead, left, right })
+        Ok(Pair { lead, left, right, next: chain.into_iter().next().filter(|_| lead.next_follows) })
     }
 
-    /// A number with the sign of c in (S - lambda)^(s-1) = c right left, on the generalised eigenvectors: (S - lambda - h)^-1 is about
-    /// -c right left/h^s for small h; applied to the vector `left`, along `right`.
-    fn through_the_block(&self, lead: &Lead, left: &[f64], right: &[f64]) -> f64 {
+    /// The generalised vectors of a Jordan block after the eigenvector: (S - lambda) g = the one before. With the last of them,
+    /// (S - lambda)^(s-1) is right left/(left last).
+    fn chain(&self, lead: &Lead, right: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let mut chain: Vec<Vec<f64>> = Vec::new();
+        if lead.jordan == 1 {
+            return Some(chain);
+        }
         let (lambda, size) = (lead.eigenvalue.value.re, self.local.size());
-        let resolvent = self.local.dense() - DMatrix::identity(size, size) * (lambda + STEP);
-        let image = resolvent.lu().solve(&DVector::from_column_slice(left));
-        image.map_or(f64::NAN, |image| -dot(image.as_slice(), right))
+        let shifted = self.local.dense() - DMatrix::identity(size, size) * lambda;
+        let svd = shifted.try_svd(true, true, f64::EPSILON, MAX_SWEEPS)?;
+        for _ in 1..lead.jordan {
+            let before = DVector::from_column_slice(chain.last().map_or(right, Vec::as_slice));
+            chain.push(svd.solve(&before, SINGULAR).ok()?.as_slice().to_vec());
+        }
+        Some(chain)
     }
 
     /// Whether the eigenvector runs along the crease: it differs on the spokes 0 and k. At a dart it is the same on either side
@@ -253,8 +293,9 @@ impl Stages<'_> {
     /// The rim seen from the centre in the plane of two eigenvectors, each scaled so that its largest value is 1.
     fn plane_rim(&self, pairs: [&Pair; 2]) -> Vec<[f64; 2]> {
         let [x, y] = pairs.map(|pair| {
-            let centre = self.value(&pair.right, self.fan().centre());
-            let edges: Vec<f64> = self.rim().iter().map(|label| self.value(&pair.right, *label) - centre).collect();
+            let shape = pair.shape();
+            let centre = self.value(&shape, self.fan().centre());
+            let edges: Vec<f64> = self.rim().iter().map(|label| self.value(&shape, *label) - centre).collect();
             let scale = largest(&edges).abs();
             edges.iter().map(|edge| if scale == 0.0 { 0.0 } else { edge / scale }).collect::<Vec<f64>>()
         });

@@ -1,0 +1,392 @@
+//! What does the scheme do at boundaries, creases, corners and darts?
+
+use super::model::{PointReport, Quantity, ResidualReport, WeightReport};
+use super::tables::{Cell, Table};
+use super::{NoReport, csv::quoted};
+use crate::analysis::boundary::exact::ExactHalves;
+use crate::analysis::boundary::halves::Parity;
+use crate::analysis::boundary::masks::{FanMask, TangentMasks};
+use crate::analysis::boundary::{BoundaryAnalysis, BoundaryAnalyzer};
+use crate::analysis::exact::{ExactEigenvalue, ExactWeight};
+use crate::analysis::spectrum::Eigenvalue;
+use crate::mesh::{FanKind, Label};
+use crate::refine::{Obstacle, OrbitNames, Refinement, lattice_of};
+use crate::scheme::{RuleBook, Scheme, catalogue};
+use crate::verdicts::bound;
+use serde::Serialize;
+use std::fmt::Write;
+
+/// The most eigenvalues of a part that a table lists.
+const MOST_EIGENVALUES: usize = 8;
+
+/// The most weights of a mask that a table lists.
+const MOST_WEIGHTS: usize = 16;
+
+/// The report of one kind of vertex.
+#[derive(Clone, Debug, Serialize)]
+pub struct BoundaryReport {
+    /// crease, corner or dart.
+    pub kind: &'static str,
+    /// The boundary file whose rules are taken.
+    pub variant: String,
+    /// Whose rules these are.
+    pub source: Vec<String>,
+    /// The number of faces: k, at a dart n.
+    pub faces: usize,
+    /// The size of the full neighbourhood.
+    pub size: usize,
+    /// Refinement steps in one application of the matrix.
+    pub steps: u32,
+    /// The factor by which these steps shrink the lattice.
+    pub dilation: u32,
+    /// Every eigenvalue, largest modulus first.
+    pub eigenvalues: Vec<ParityReport>,
+    /// `exact` or `approximate`: that of eigenvalues and of the limit mask. All else is approximate.
+    pub arithmetic: &'static str,
+    /// Why it is not exact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why_not_exact: Option<String>,
+    /// Weights of the limit mask.
+    pub limit_mask: Option<Vec<WeightReport>>,
+    /// Weights of the two tangent masks.
+    pub tangent_masks: Option<[Vec<WeightReport>; 2]>,
+    /// The eigenvalues that these belong to.
+    pub tangent_eigenvalues: Option<[ParityReport; 2]>,
+    /// The control net of the characteristic map.
+    pub characteristic_map: Option<Vec<PointReport>>,
+    /// Why a mask is not there.
+    pub why_not: Vec<String>,
+    /// A power of ten above the approximate residuals of all right and left vectors that were computed, and their number.
+    pub residual: ResidualReport,
+}
+
+/// An eigenvalue of one part, or a cluster of approximately equal ones.
+#[derive(Clone, Debug, Serialize)]
+pub struct ParityReport {
+    /// The value.
+    #[serde(flatten)]
+    pub quantity: Quantity,
+    /// even or odd under the mirror.
+    pub parity: &'static str,
+    /// How often it counts.
+    pub algebraic: usize,
+    /// The dimension of its eigenspace; null where approximately equal eigenvalues can't be told apart.
+    pub geometric: Option<usize>,
+    /// The size of its largest Jordan block; null likewise.
+    pub jordan: Option<usize>,
+}
+
+/// The reports at these numbers of faces: crease and corner, and from three faces on the dart, with the first boundary file that the
+/// scheme names.
+///
+/// # Errors
+/// When the scheme names none; faults of either file, or what stood in the way.
+pub fn boundary(
+    scheme: &Scheme,
+    faces: &[usize],
+    digits: usize,
+    done: &dyn Fn(),
+) -> Result<Vec<BoundaryReport>, NoReport> {
+    let (variant, book) = variant(scheme)?;
+    let analyzer = BoundaryAnalyzer::new(scheme, &book).map_err(NoReport::of(scheme))?;
+    let names = OrbitNames::of(&Refinement::<f64>::new(scheme, None), lattice_of(scheme));
+    let mut counts = faces.to_vec();
+    counts.push(scheme.regular_valence() / 2);
+    book.check(&counts, scheme.regular_valence()).map_err(NoReport::Faults)?;
+    let mut reports = Vec::new();
+    let kinds: [fn(usize) -> FanKind; 3] =
+        [|faces| FanKind::Crease { faces }, |faces| FanKind::Corner { faces }, |faces| FanKind::Dart { faces }];
+    for of in kinds {
+        for kind in faces.iter().map(|faces| of(*faces)).filter(|kind| kind.faces() >= kind.least_faces()) {
+            let analysis = analyzer.at(kind).map_err(NoReport::of(scheme))?;
+            let exact = analyzer.exact(&analysis.local);
+            reports.push(report((&variant, &book), &analysis, exact, &names, digits));
+            done();
+        }
+    }
+    Ok(reports)
+}
+
+/// The boundary file that a scheme takes, with its rules.
+fn variant(scheme: &Scheme) -> Result<(String, RuleBook), NoReport> {
+    let none = || {
+        NoReport::Obstacle(Obstacle::Limit(
+            "the scheme names no boundary file, whose rules the analysis at a boundary takes: add for example boundary = [\"cubic\"] to \
+             the scheme file"
+                .to_string(),
+        ))
+    };
+    let name = scheme.boundary.first().ok_or_else(none)?;
+    let book = catalogue::boundary(name, &scheme.mesh).ok_or_else(none)?.map_err(NoReport::Faults)?;
+    Ok((name.clone(), book))
+}
+
+fn report(
+    (variant, book): (&str, &RuleBook),
+    analysis: &BoundaryAnalysis,
+    exact: Result<ExactHalves, Obstacle>,
+    names: &OrbitNames,
+    digits: usize,
+) -> BoundaryReport {
+    let (residual, vectors) = analysis.spectrum.approx_residual(&analysis.halves, &analysis.cores);
+    let tangents = analysis.tangent_masks.as_ref().ok();
+    let (known, why_not_exact) = match exact {
+        Ok(exact) => (Some(exact), None),
+        Err(why) => (None, Some(why.to_string())),
+    };
+    let spell = |mask: &FanMask| mask.iter().map(|(label, weight)| spelled(analysis, names, *label, *weight)).collect();
+    BoundaryReport {
+        kind: analysis.fan.kind().name(),
+        variant: variant.to_string(),
+        source: book.sources.clone(),
+        faces: analysis.fan.sectors() as usize,
+        size: analysis.local.size(),
+        steps: 1,
+        dilation: 2,
+        eigenvalues: match &known {
+            Some(exact) => exact.eigenvalues.iter().map(|e| exact_eigenvalue(e, digits)).collect(),
+            None => analysis.spectrum.distinct().iter().map(approximate_eigenvalue).collect(),
+        },
+        arithmetic: if known.is_some() { "exact" } else { "approximate" },
+        why_not_exact,
+        limit_mask: analysis.limit_mask.as_ref().ok().map(|mask| {
+            let known = known.as_ref().and_then(|exact| exact.limit_mask.as_ref());
+            mask.iter()
+                .map(|(label, weight)| {
+                    let own = known.and_then(|mask| mask.iter().find(|(point, _)| point == label));
+                    let plain = spelled(analysis, names, *label, *weight);
+                    own.map_or(plain.clone(), |(_, own)| with_exact(plain, own, digits))
+                })
+                .collect()
+        }),
+        tangent_masks: tangents.map(|own| own.masks.each_ref().map(spell)),
+        tangent_eigenvalues: tangents.map(|own| tangent_eigenvalues(own, known.as_ref(), digits)),
+        characteristic_map: tangents.map(|own| net(analysis, own)),
+        why_not: [analysis.limit_mask.as_ref().err(), analysis.tangent_masks.as_ref().err()]
+            .into_iter()
+            .flatten()
+            .cloned()
+            .collect(),
+        residual: ResidualReport { bound: bound(residual), vectors },
+    }
+}
+
+fn exact_eigenvalue(e: &ExactEigenvalue, digits: usize) -> ParityReport {
+    ParityReport {
+        quantity: Quantity::of_eigenvalue(e, digits),
+        parity: Parity::of_part(e.frequency).name(),
+        algebraic: e.algebraic.unwrap_or(0),
+        geometric: e.structure.map(|structure| structure.geometric),
+        jordan: e.structure.map(|structure| structure.largest),
+    }
+}
+
+fn approximate_eigenvalue(e: &Eigenvalue) -> ParityReport {
+    ParityReport {
+        quantity: Quantity::approximate([e.value.re + 0.0, e.value.im + 0.0]),
+        parity: Parity::of_part(e.frequency).name(),
+        algebraic: e.cluster,
+        geometric: e.is_isolated().then_some(1),
+        jordan: e.is_isolated().then_some(1),
+    }
+}
+
+/// The eigenvalues of the tangents, exact where they are known so.
+fn tangent_eigenvalues(own: &TangentMasks, exact: Option<&ExactHalves>, digits: usize) -> [ParityReport; 2] {
+    let report = |axis: usize| {
+        let e = &own.eigenvalues[axis];
+        let known = exact.and_then(|exact| exact.eigenvalue_at(e)).map(|e| exact_eigenvalue(e, digits));
+        known.unwrap_or_else(|| ParityReport { jordan: Some(own.jordan[axis]), ..approximate_eigenvalue(e) })
+    };
+    [report(0), report(1)]
+}
+
+fn spelled(analysis: &BoundaryAnalysis, names: &OrbitNames, label: Label, weight: f64) -> WeightReport {
+    let is_centre = label == analysis.fan.centre();
+    WeightReport {
+        at: if is_centre { "centre".to_string() } else { names.name(label.orbit()) },
+        sector: (!is_centre).then_some(label.sector),
+        orbit: (!is_centre).then_some([label.i, label.j]),
+        weight: weight + 0.0,
+        decimal: None,
+        exact: None,
+        latex: None,
+    }
+}
+
+fn with_exact(weight: WeightReport, own: &ExactWeight, digits: usize) -> WeightReport {
+    WeightReport {
+        weight: own.value.midpoint_f64() + 0.0,
+        decimal: own.value.decimal(digits),
+        exact: own.exact.as_ref().map(|words| words.text.clone()),
+        latex: own.exact.as_ref().map(|words| words.latex.clone()),
+        ..weight
+    }
+}
+
+fn net(analysis: &BoundaryAnalysis, own: &TangentMasks) -> Vec<PointReport> {
+    let points = analysis.local.labels.iter().zip(&own.net);
+    points.map(|(Label { sector, i, j }, xy)| PointReport { sector: *sector, orbit: [*i, *j], xy: *xy }).collect()
+}
+
+/// The tables of a report.
+pub(super) fn tables(reports: &[BoundaryReport]) -> Vec<Table> {
+    let Some(first) = reports.first() else { return vec![] };
+    vec![overview(reports, &first.variant), masks(reports), eigenvalues(reports)]
+}
+
+/// The title of the first table.
+pub const TITLE: &str = "At a boundary";
+
+fn overview(reports: &[BoundaryReport], variant: &str) -> Table {
+    let note = format!(
+        "Boundary file: {variant}. A boundary is a crease with nothing beyond it; k is the number of faces on one side of it, at a corner those \
+         between its two edges, at a dart all around the vertex at which a crease ends. The largest eigenvalues after 1, over the full \
+         neighbourhood of the size given, with their parity under the mirror. The masks and whether there is a tangent plane are approximate: the \
+         characteristic map is looked at by its control net around the vertex."
+    );
+    let row = |own: &BoundaryReport| -> Vec<Cell> {
+        let rest = own.eigenvalues.iter().filter(|e| e.quantity.value != [1.0, 0.0] || e.parity != "even");
+        let leading: Vec<Cell> = rest.take(3).map(eigenvalue).collect();
+        vec![
+            own.kind.into(),
+            own.faces.to_string().into(),
+            own.size.to_string().into(),
+            Cell::joined(&leading),
+            own.tangent_plane().into(),
+        ]
+    };
+    let head = ["vertex", "k", "size", "largest eigenvalues after 1", "tangent plane"].map(str::to_string).to_vec();
+    Table { title: TITLE.to_string(), note, head, rows: reports.iter().map(row).collect() }
+}
+
+impl BoundaryReport {
+    /// Whether there is a tangent plane, or why not.
+    fn tangent_plane(&self) -> String {
+        let slowly = |e: &ParityReport| e.jordan.is_some_and(|size| size > 1);
+        match (&self.tangent_eigenvalues, self.why_not.last()) {
+            (Some(own), _) if own.iter().any(slowly) => "yes; a Jordan block makes normals converge slowly".to_string(),
+            (Some(_), _) => "yes".to_string(),
+            (None, Some(why)) => why.clone(),
+            (None, None) => "-".to_string(),
+        }
+    }
+}
+
+/// A value with its parity and its Jordan block.
+fn eigenvalue(e: &ParityReport) -> Cell {
+    let cell = Cell::number(&e.quantity, super::tables::SHORT);
+    let times = if e.algebraic > 1 { format!(", {} times", e.algebraic) } else { String::new() };
+    let block = match e.jordan {
+        Some(size) if size > 1 => format!(", Jordan block of size {size}"),
+        _ => String::new(),
+    };
+    let remark = format!(" ({}{times}{block})", e.parity);
+    Cell { text: format!("{}{remark}", cell.text), latex: cell.latex.map(|latex| format!("{latex}{remark}")) }
+}
+
+fn masks(reports: &[BoundaryReport]) -> Table {
+    let note = "Left vectors, applied to the points at any level. Edge neighbours (ring) are counted from spoke 0, counter-clockwise. The limit mask \
+                sums to 1. The first tangent runs along the crease, towards spoke 0; first x second is the outward normal; the largest weight of each \
+                is 1 or -1. Longer masks are cut short here and whole in the JSON form.";
+    let row = |own: &BoundaryReport, name: &str, mask: &[WeightReport]| -> Vec<Cell> {
+        vec![own.kind.into(), own.faces.to_string().into(), name.into(), weights(mask).into()]
+    };
+    let rows = reports.iter().flat_map(|own| {
+        let limit = own.limit_mask.iter().map(move |mask| row(own, "limit", mask));
+        let tangents = own.tangent_masks.iter().flatten().zip(["first tangent", "second tangent"]);
+        limit.chain(tangents.map(move |(mask, name)| row(own, name, mask)))
+    });
+    let head = ["vertex", "k", "mask", "weights"].map(str::to_string).to_vec();
+    Table { title: "Masks at a boundary".to_string(), note: note.to_string(), head, rows: rows.collect() }
+}
+
+/// `centre 2/3, ring[0] 1/6, ring[3] 1/6`
+fn weights(mask: &[WeightReport]) -> String {
+    let shown = mask.iter().take(MOST_WEIGHTS).map(|weight| {
+        let place = weight.sector.map_or(weight.at.clone(), |sector| format!("{}[{sector}]", weight.at));
+        let exact = weight.exact.clone().filter(|text| text.chars().count() <= super::tables::SHORT);
+        let value = exact.unwrap_or_else(|| weight.decimal.clone().unwrap_or_else(|| short(weight.weight)));
+        format!("{place} {value}")
+    });
+    let more =
+        if mask.len() > MOST_WEIGHTS { format!(", and {} more", mask.len() - MOST_WEIGHTS) } else { String::new() };
+    shown.collect::<Vec<_>>().join(", ") + &more
+}
+
+/// A few digits; approximate.
+fn short(value: f64) -> String {
+    let text = format!("{value:.6}");
+    format!("≈ {}", text.trim_end_matches('0').trim_end_matches('.'))
+}
+
+fn eigenvalues(reports: &[BoundaryReport]) -> Table {
+    let row = |own: &BoundaryReport, parity: Parity| -> Vec<Cell> {
+        let of_part: Vec<&ParityReport> = own.eigenvalues.iter().filter(|e| e.parity == parity.name()).collect();
+        let mut cells: Vec<Cell> = of_part.iter().take(MOST_EIGENVALUES).map(|e| eigenvalue_of_part(e)).collect();
+        if of_part.len() > MOST_EIGENVALUES {
+            cells.push("...".into());
+        }
+        vec![own.kind.into(), own.faces.to_string().into(), parity.name().into(), Cell::joined(&cells)]
+    };
+    let rows = reports.iter().flat_map(|own| Parity::BOTH.map(|parity| row(own, parity)));
+    let note = "Largest modulus first. The mirror exchanges the two sides; a function is even if it is the same in the mirror, odd if its sign changes.";
+    let head = ["vertex", "k", "part", "eigenvalues"].map(str::to_string).to_vec();
+    Table { title: "Eigenvalues at a boundary".to_string(), note: note.to_string(), head, rows: rows.collect() }
+}
+
+fn eigenvalue_of_part(e: &ParityReport) -> Cell {
+    let cell = eigenvalue(e);
+    let plain = |text: String| text.replace(&format!(" ({})", e.parity), "").replace(&format!("({}, ", e.parity), "(");
+    Cell { text: plain(cell.text), latex: cell.latex.map(plain) }
+}
+
+/// The numbers as one tidy table.
+pub fn boundary_csv(reports: &[BoundaryReport]) -> String {
+    let mut text = "kind,faces,quantity,at,parity,sector,i,j,value,imaginary\n".to_string();
+    for own in reports {
+        let place = format!("{},{}", own.kind, own.faces);
+        let _ = writeln!(text, "{place},size,,,,,,{},", own.size);
+        for e in &own.eigenvalues {
+            for _ in 0..e.algebraic {
+                let [re, im] = e.quantity.value;
+                let _ = writeln!(text, "{place},eigenvalue,,{},,,,{re},{im}", e.parity);
+            }
+        }
+        let limit = own.limit_mask.iter().map(|mask| ("limit mask", mask));
+        let tangents =
+            ["first tangent mask", "second tangent mask"].into_iter().zip(own.tangent_masks.iter().flatten());
+        for (name, weight) in limit.chain(tangents).flat_map(|(name, mask)| mask.iter().map(move |w| (name, w))) {
+            let sector = weight.sector.map_or(String::new(), |sector| sector.to_string());
+            let (i, j) = weight.orbit.map_or((String::new(), String::new()), |[i, j]| (i.to_string(), j.to_string()));
+            let _ = writeln!(text, "{place},{name},{},,{sector},{i},{j},{},", quoted(&weight.at), weight.weight);
+        }
+    }
+    text
+}
+
+/// The numbers for a terminal.
+pub fn terminal(reports: &[BoundaryReport]) -> String {
+    let Some(first) = reports.first() else { return String::new() };
+    let mut text = format!(
+        "\nAt a boundary, by the rules `{}`; the two largest eigenvalues after 1, with their parity:\n{:>8} {:>4} {:>6} {:>17} {:>17}  tangent plane\n",
+        first.variant, "", "k", "points", "", ""
+    );
+    for own in reports {
+        let rest = own.eigenvalues.iter().filter(|e| e.quantity.value != [1.0, 0.0] || e.parity != "even");
+        let mut leading = rest.map(|e| {
+            let [re, im] = e.quantity.value;
+            let value = if im == 0.0 { format!("{re:.10}") } else { format!("{re:.4}{im:+.4}i") };
+            format!("{value} {:<4}", e.parity)
+        });
+        let mut next = || leading.next().unwrap_or("-".to_string());
+        let (a, b) = (next(), next());
+        let plane = own.tangent_plane().replacen("no tangent plane: ", "no: ", 1).replacen(
+            "no tangent plane found: ",
+            "none found: ",
+            1,
+        );
+        let _ = writeln!(text, "{:>8} {:>4} {:>6} {a:>17} {b:>17}  {plane}", own.kind, own.faces, own.size);
+    }
+    text
+}
