@@ -6,7 +6,7 @@
 //! 2. [`refine`]: weights meet topology ([`mesh`]): how is each new point made from old ones?
 //! 3. [`analysis`]: the local subdivision matrix at a valence ([`analysis::local`]), its blocks by the discrete Fourier transform
 //!    ([`analysis::blocks`]), their eigenvalues ([`analysis::spectrum`]), limit and tangent masks ([`analysis::masks`]), and the
-//!    characteristic map ([`analysis::charmap`]).
+//!    characteristic map ([`analysis::charmap`]); at a boundary or crease the same by a mirror alone ([`analysis::boundary`]).
 //! 4. [`verdicts`]: what follows, and from which theorem?
 //! 5. [`report`]: tables and pictures.
 //!

@@ -10,6 +10,8 @@ use eigenring::analysis::spectrum::{Eigenvalue, Spectrum};
 use eigenring::mesh::edge_between;
 use eigenring::mesh::{Connectivity, Crease, Fan, FanKind, HalfEdgeMesh, Label, Lattice, Site, Tagged, Tags};
 use eigenring::refine::{Obstacle, Refinement, Row, lattice_of};
+use eigenring::report::boundary as report_of;
+use eigenring::report::{self, Study};
 use eigenring::scheme::{RuleBook, Scheme, catalogue};
 use nalgebra::{DMatrix, DVector};
 use std::collections::{BTreeMap, BTreeSet};
@@ -700,4 +702,57 @@ fn normals_of_deep_faces_converge_exactly_where_there_is_a_plane() {
         }
     });
     assert_eq!((slowly, apart), (2 * 2 + 2, 2 * 4 + 7));
+}
+
+/// What a report says is what the analysis found, in every form; without being asked for it is not there.
+#[test]
+fn reports_tell_the_boundary_in_every_form() {
+    let (scheme, book) = open("loop");
+    let mut study = Study::of(&scheme, &[3], false, &|| ()).unwrap();
+    let plain = report::texts(&study.report, &[]).unwrap();
+    assert!(plain.iter().all(|(_, text)| !text.contains("At a boundary") && !text.contains("\"boundary\"")));
+    assert_eq!(report_of::terminal(&study.report.boundary), "");
+    let counted = std::cell::Cell::new(0);
+    let found = report_of::boundary(&scheme, &[1, 6, 7], 10, &|| counted.set(counted.get() + 1)).unwrap();
+    let places: Vec<(&str, usize)> = found.iter().map(|own| (own.kind, own.faces)).collect();
+    let both = ["crease", "corner"].into_iter().flat_map(|kind| [1, 6, 7].map(|k| (kind, k)));
+    assert_eq!(places, both.chain([("dart", 6), ("dart", 7)]).collect::<Vec<_>>());
+    assert_eq!(counted.get(), places.len());
+    let analyzer = BoundaryAnalyzer::new(&scheme, &book).unwrap();
+    for own in &found {
+        let kind = match own.kind {
+            "crease" => crease(own.faces),
+            "corner" => corner(own.faces),
+            _ => dart(own.faces),
+        };
+        let analysis = analyzer.at(kind).unwrap();
+        let tangents = analysis.tangent_masks.as_ref();
+        assert_eq!(own.tangent_masks.is_some(), tangents.is_ok(), "{kind:?}");
+        assert_eq!(own.why_not, tangents.err().into_iter().cloned().collect::<Vec<String>>(), "{kind:?}");
+        assert_eq!(own.eigenvalues.iter().map(|e| e.algebraic).sum::<usize>(), own.size);
+        for (spelled, mask) in own.tangent_masks.iter().flatten().zip(tangents.iter().flat_map(|own| &own.masks)) {
+            let places = spelled.iter().map(|w| (w.sector.unwrap_or(0), w.orbit.unwrap_or([0, 0]), w.weight));
+            let wanted = mask.iter().map(|(Label { sector, i, j }, weight)| (*sector, [*i, *j], *weight));
+            assert_eq!(places.collect::<Vec<_>>(), wanted.collect::<Vec<_>>(), "{kind:?}");
+        }
+    }
+    let words = report_of::terminal(&found);
+    assert_eq!(words.lines().count(), 3 + found.len(), "{words}");
+    assert!(words.contains("no: two modes that vanish along the boundary"), "{words}");
+    let csv = report_of::boundary_csv(&found);
+    assert!(csv.lines().all(|line| line.matches(',').count() == 9), "{csv}");
+    let eigenvalues = csv.lines().filter(|line| line.contains(",eigenvalue,")).count();
+    assert_eq!(eigenvalues, found.iter().map(|own| own.size).sum::<usize>());
+    study.report.add_boundary(found);
+    assert!(study.report.sources.iter().any(|source| source.key == "hoppe-1994"));
+    let texts = report::texts(&study.report, &[]).unwrap();
+    let has = |ending: &str, words: &str| {
+        let (_, text) = texts.iter().find(|(name, _)| name.ends_with(ending)).unwrap();
+        assert!(text.contains(words), "{ending}: {words}");
+    };
+    has(".md", "## At a boundary");
+    has(".md", "centre 2/3, ring[0] 1/6, ring[6] 1/6");
+    has(".md", "0.5000000000 = 1/2 (2 times, Jordan block of size 2)");
+    has(".tex", "\\subsection*{Masks at a boundary}");
+    has(".json", "\"variant\": \"cubic\"");
 }

@@ -1,6 +1,7 @@
 //! Does the README say what the program does: keys of the format, commands, the JSON contract?
 #![allow(clippy::unwrap_used)]
 
+use eigenring::report::boundary::boundary;
 use eigenring::report::{Study, json};
 use eigenring::scheme::vocabulary::{Arrival, RuleKind, Vocabulary};
 use eigenring::scheme::{KEYS, Scheme, catalogue};
@@ -67,7 +68,11 @@ fn the_json_contract_names_every_key() {
     let mut keys = BTreeSet::new();
     for id in ["loop", "doo-sabin", "modified-butterfly"] {
         let scheme = catalogue::open(id).unwrap().unwrap();
-        let study = Study::of(&scheme, &[3, 5], false, &|| ()).unwrap();
+        let mut study = Study::of(&scheme, &[3, 5], false, &|| ()).unwrap();
+        if !scheme.boundary.is_empty() {
+            let found = boundary(&scheme, &[3, 7, 25], 10, &|| ()).unwrap();
+            study.report.add_boundary(found);
+        }
         keys_of(&serde_json::from_str(&json(&study.report).unwrap()).unwrap(), &mut keys);
     }
     for key in &keys {

@@ -2,6 +2,7 @@
 //!
 //! The stages of the pipeline, one a file: [`local`] -> [`blocks`] -> [`cores`] -> [`spectrum`] -> [`masks`] and [`charmap`].
 //! An [`Analyzer`] holds what all valences of a scheme share; [`Analyzer::at`] runs the stages for one.
+//! At a vertex on a boundary or crease the symmetry is a mirror alone: [`boundary`]. What follows the symmetry is shared: [`parts`].
 
 pub mod blocks;
 pub mod boundary;

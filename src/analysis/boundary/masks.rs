@@ -15,6 +15,7 @@ use super::halves::{Halves, MirrorNode, Parity};
 use super::local::FanMatrix;
 use crate::mesh::{Fan, FanKind, Label, Lattice};
 use nalgebra::{DMatrix, DVector};
+use std::cmp::Reverse;
 use std::f64::consts::TAU;
 
 /// Weights, relative to the largest, that rounding alone may have made.
@@ -170,7 +171,7 @@ impl Stages<'_> {
         let same_level = |a: &Lead, b: &Lead| (a.eigenvalue.modulus() - b.eigenvalue.modulus()).abs() <= NEAR;
         // the second level, or the only one, in order of growth
         let start = usize::from(leads.len() > 1 && !same_level(&leads[0], &leads[1]));
-        leads[start..].sort_by(|a, b| b.jordan.cmp(&a.jordan));
+        leads[start..].sort_by_key(|lead| Reverse(lead.jordan));
         let [first, second, others @ ..] = &leads[..] else {
             return Err("no tangent plane: there are no two eigenvalues after 1".to_string());
         };
