@@ -74,10 +74,22 @@ fn stl_holds_the_triangles_of_fans() {
 #[test]
 fn stl_leaves_out_triangles_that_collapse() {
     let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1e-60, 0.0, 0.0]];
-    let faces = Faces::from_lists(&[[0, 1, 2], [0, 3, 1]]);
+    let faces = Faces::from_lists(&[[0, 1, 2], [0, 3, 1], [1, 0, 3], [3, 1, 0]]);
     let (bytes, notes) = written(Format::Stl, &Output::new(positions.as_slice(), &faces));
     assert_eq!(read(Format::Stl, &bytes).unwrap().soup.faces.len(), 1);
-    assert!(notes.iter().any(|note| note.starts_with("1 triangles with two corners")), "{notes:?}");
+    assert!(notes.iter().any(|note| note.starts_with("3 triangles with two corners")), "{notes:?}");
+}
+
+#[test]
+fn numbers_are_written_as_short_as_they_can_be() {
+    let faces = Faces::from_lists(&[[0, 1, 2]]);
+    let doubles = [[0.1, -0.0, 100.0], [1e-7, -2.5e-300, 1e20], [0.3, 1.0 / 3.0, 5e-324]];
+    let (bytes, _) = written(Format::Obj, &Output::new(doubles.as_slice(), &faces));
+    let lines = "v 0.1 -0 100\nv 1e-7 -2.5e-300 1e20\nv 0.3 0.3333333333333333 5e-324\nf 1 2 3\n";
+    assert_eq!(String::from_utf8(bytes).unwrap(), lines);
+    let singles = doubles.map(|point| point.map(|value: f64| value.clamp(-1e30, 1e30) as f32));
+    let (bytes, _) = written(Format::Off, &Output::new(singles.as_slice(), &faces));
+    assert_eq!(String::from_utf8(bytes).unwrap(), "OFF\n3 1 0\n0.1 -0 100\n1e-7 -0 1e20\n0.3 0.33333334 0\n3 0 1 2\n");
 }
 
 #[test]
@@ -416,6 +428,7 @@ fn faults_of_obj_files() {
                 7,
                 &["no vertex 9", "has 3", "one more"],
             ),
+            ("beyond at the first corner", &with("f 1 2 3\nf 9 1 2\n"), Kind::Index, 5, &["no vertex 9"]),
             ("before the start", &with("f 1 2 -4\n"), Kind::Index, 4, &["no vertex -4"]),
             ("a huge index", &with("f 1 2 99999999999\n"), Kind::Index, 4, &["99999999999"]),
             (
@@ -439,6 +452,13 @@ fn faults_of_obj_files() {
             ("control characters", b"v \x1b[31m 0 0\n", Kind::Number, 1, &["\\u{1b}[31m"]),
         ],
     );
+}
+
+#[test]
+fn only_faults_of_the_same_kind_are_counted() {
+    let fault =
+        refusal(Format::Obj, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nv x 0 0\nf 1 2 0\nf 1\nf 1 2 1\nt crease 1 2\n");
+    assert_eq!((fault.kind, fault.line(), fault.more), (Kind::Face, Some(4), 2));
 }
 
 #[test]
