@@ -79,7 +79,7 @@ impl BadFile {
     }
 
     pub(super) fn looks_like(mut self, other: Format) -> BadFile {
-        self.help = format!("the file starts as {other} does: read it as that, or {}", self.help);
+        self.help = format!("the file starts as {other} does: give it the ending `.{}`", other.ending());
         self
     }
 }

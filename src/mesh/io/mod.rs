@@ -1,7 +1,7 @@
 //! How do meshes come from files, and go into them?
 //!
 //! Bytes in, bytes out: files are opened elsewhere. [`read`] takes OBJ, PLY, OFF and STL, whole and checked, or says what is
-//! wrong and where; [`write`] makes these and binary glTF.
+//! wrong and where; [`write()`] makes these and binary glTF.
 //!
 //! | format | read | written | tags | what else |
 //! |---|---|---|---|---|

@@ -7,8 +7,8 @@ use crate::mesh::Crease;
 use std::io::{self, Write};
 
 pub(super) fn write(output: &Output, to: &mut impl Write) -> io::Result<Vec<String>> {
-    // a sharpness of NaN is none either
-    if let Some(crease) = output.creases.iter().find(|crease| !(crease.sharpness >= 0.0)) {
+    let none = |crease: &&Crease| crease.sharpness.is_nan() || crease.sharpness < 0.0;
+    if let Some(crease) = output.creases.iter().find(none) {
         let [a, b] = crease.ends;
         return Err(refused(format!("the crease between vertices {a} and {b} has no sharpness of 0 or more")));
     }
