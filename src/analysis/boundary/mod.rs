@@ -8,6 +8,7 @@
 pub mod exact;
 pub mod halves;
 pub mod influence;
+mod leading;
 pub mod local;
 pub mod masks;
 
