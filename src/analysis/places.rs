@@ -41,7 +41,7 @@ pub struct PlaceMasks {
 /// Moduli of eigenvalues: in each step lengths shrink by these.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {
-    /// Those of the two tangents, the larger first.
+    /// Those of the two tangents, in order of their masks.
     pub lambda: [f64; 2],
     /// The largest of all that follow.
     pub mu: f64,
@@ -122,16 +122,16 @@ pub(super) fn point_at(
 
 /// The masks of a vertex on a crease.
 fn of_fan(analysis: &BoundaryAnalysis) -> PlaceMasks {
-    let lambda = |tangents: &TangentMasks| {
-        let [a, b] = tangents.eigenvalues.map(|e| e.modulus());
-        [a.max(b), a.min(b)]
-    };
     let chosen = |tangents: &TangentMasks, e: &Eigenvalue| {
         tangents.eigenvalues.iter().any(|own| (own.frequency, own.group) == (e.frequency, e.group))
     };
     let rates = |tangents: &TangentMasks| {
         let mu = analysis.spectrum.after_one().find(|e| !chosen(tangents, e)).map_or(0.0, Eigenvalue::modulus);
-        Rates { lambda: lambda(tangents), mu, jordan: tangents.jordan[0].max(tangents.jordan[1]) }
+        Rates {
+            lambda: tangents.eigenvalues.map(|e| e.modulus()),
+            mu,
+            jordan: tangents.jordan[0].max(tangents.jordan[1]),
+        }
     };
     PlaceMasks {
         limit: analysis.limit_mask.clone(),

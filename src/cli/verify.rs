@@ -202,16 +202,17 @@ fn text(scheme: &Scheme, asked: &Verify, checks: &[Check], meshes: &[OnMesh]) ->
     );
     let _ = writeln!(
         text,
-        "{:<16} {:>5} {:>11} {:>9}  {:>21} {:>21} {:>10} {:>10}  verdict",
-        "place", "steps", "limit point", "normal", "lambda", "lambda seen", "mu", "mu seen"
+        "{:<16} {:>5} {:>11} {:>9} {:>9}  {:>21} {:>21} {:>10} {:>10}  verdict",
+        "place", "steps", "limit point", "tangents", "normal", "lambda", "lambda seen", "mu", "mu seen"
     );
     for check in checks {
         let _ = writeln!(text, "{}", line(check));
     }
     let _ = writeln!(
         text,
-        "\nlimit point: the largest difference of a coordinate (at most {POSITION:.0e}); normal: the angle in radians (at most {NORMAL:.0e}, or \
-         what slow\nconvergence leaves); lambda: the factors by which tangents shrink in a step; mu: that of what is beside them.\n"
+        "\nlimit point: the largest difference of a coordinate (at most {POSITION:.0e}); tangents: that between a step and lambda times the \
+         tangents\nbefore it (at most {POSITION:.0e}); normal: the angle in radians (at most {NORMAL:.0e}, or what slow convergence leaves); lambda: \
+         the factors\nby which tangents shrink in a step; mu: that of what is beside them.\n"
     );
     for mesh in meshes {
         let Levels { vertices, position, normal, without_normal, agrees } = mesh.levels;
@@ -238,22 +239,30 @@ fn text(scheme: &Scheme, asked: &Verify, checks: &[Check], meshes: &[OnMesh]) ->
 
 fn line(check: &Check) -> String {
     let normal = check.normal.as_ref().map_or("-".to_string(), |normal| bound(normal.angle));
-    let pair = |[a, b]: [f64; 2]| if (a - b).abs() < 5e-9 { rate(a) } else { format!("{}, {}", rate(a), rate(b)) };
+    let tangent = if check.rates.is_some() { bound(check.tangent) } else { "-".to_string() };
+    // of the two factors the larger first; rounding of a double one is not shown
+    let pair = |[a, b]: [f64; 2]| {
+        if (a - b).abs() < 1e-7 { rate((a + b) / 2.0) } else { format!("{}, {}", rate(a.max(b)), rate(a.min(b))) }
+    };
     let (lambda, seen, mu, mu_seen) = check.rates.map_or_else(Default::default, |(rates, seen)| {
         let mu_seen = seen.mu.map_or("-".to_string(), rate);
         (pair(rates.lambda), pair(seen.lambda), rate(rates.mu), mu_seen)
     });
     let verdict = match (&check.agrees, &check.normal) {
         (false, _) => "WRONG".to_string(),
+        (true, Ok(normal)) if normal.bound.is_infinite() => {
+            "agrees; a Jordan block: normals converge like 1/m".to_string()
+        }
         (true, Ok(normal)) if normal.bound > NORMAL => format!("agrees (normals to {:.0e})", normal.bound),
         (true, Ok(_)) => "agrees".to_string(),
         (true, Err(why)) => format!("limit point agrees; {why}"),
     };
     format!(
-        "{:<16} {:>5} {:>11} {:>9}  {:>21} {:>21} {:>10} {:>10}  {verdict}",
+        "{:<16} {:>5} {:>11} {:>9} {:>9}  {:>21} {:>21} {:>10} {:>10}  {verdict}",
         place_words(check.place),
         check.steps,
         bound(check.position),
+        tangent,
         normal,
         lambda,
         seen,
@@ -264,7 +273,7 @@ fn line(check: &Check) -> String {
 
 fn csv(checks: &[Check], meshes: &[OnMesh]) -> String {
     let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
-    let mut text = "place,steps,position,normal,normal_bound,lambda_1,lambda_2,lambda_1_seen,lambda_2_seen,mu,mu_seen,agrees,why\n"
+    let mut text = "place,steps,position,tangent,normal,normal_bound,lambda_1,lambda_2,lambda_1_seen,lambda_2_seen,mu,mu_seen,agrees,why\n"
         .to_string();
     for check in checks {
         let angle = check.normal.as_ref().ok();
@@ -272,10 +281,11 @@ fn csv(checks: &[Check], meshes: &[OnMesh]) -> String {
         let why = check.normal.as_ref().err().map_or(String::new(), |why| format!("\"{}\"", why.replace('"', "'")));
         let _ = writeln!(
             text,
-            "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{why}",
+            "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{why}",
             place_words(check.place),
             check.steps,
             check.position,
+            check.tangent,
             number(angle.map(|a| a.angle)),
             number(angle.map(|a| a.bound)),
             number(rates.map(|(rates, _)| rates.lambda[0])),
@@ -290,7 +300,7 @@ fn csv(checks: &[Check], meshes: &[OnMesh]) -> String {
     for mesh in meshes {
         let Levels { position, normal, agrees, .. } = mesh.levels;
         let name = mesh.name.replace('"', "'");
-        let _ = writeln!(text, "\"{name}\",{},{position},{normal},{NORMAL},,,,,,,{agrees},", mesh.steps);
+        let _ = writeln!(text, "\"{name}\",{},{position},,{normal},{NORMAL},,,,,,,{agrees},", mesh.steps);
     }
     text
 }

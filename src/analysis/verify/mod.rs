@@ -1,14 +1,14 @@
 //! Do the masks say what the mesh engine does?
 //!
 //! For each place random points on a mesh around it, refined deeply ([`zoom`]), against its masks applied once to the first level: the
-//! limit point, the normal, and how fast rings shrink. And on whole meshes: limits from one level against those from some steps later.
+//! limit point, the normal, and how fast rings shrink; and tangent masks against a single step, u x_1 = lambda u x_0. And on whole meshes: limits from one level against those from some steps later.
 //! Everything is `f64` arithmetic with the tolerances stated: evidence, not proof.
 
 mod zoom;
 
 use super::limit::{LimitSurface, Limits, NoLimit, cross, dot, unit};
-use super::places::{LabelledMask, Place, PlaceMasks, Rates};
-use crate::mesh::{Label, Split};
+use super::places::{Place, PlaceMasks, Rates};
+use crate::mesh::Split;
 use crate::refine::{Level, Obstacle, Refiner, Route};
 use zoom::Zoom;
 
@@ -31,6 +31,8 @@ pub struct Check {
     pub steps: usize,
     /// The largest difference of a coordinate of the limit point.
     pub position: f64,
+    /// How well tangent masks survive a step: the largest coordinate of u x_1 - lambda u x_0. 0 where there are none.
+    pub tangent: f64,
     /// The angle between the normals, or why there is no normal.
     pub normal: Result<Angle, String>,
     /// The rates by the analysis, and as observed in the last steps.
@@ -39,7 +41,8 @@ pub struct Check {
     pub agrees: bool,
 }
 
-/// The angle between two normals, and how large it may be: slow convergence leaves a rest.
+/// The angle between two normals, and how large it may be: slow convergence leaves a rest. Beside a Jordan block normals converge like 1/m, and
+/// the angle says nothing: the bound is infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Angle {
     /// In radians.
@@ -100,23 +103,31 @@ impl<'a> Verifier<'a> {
         let mut zoom = Zoom::random(&self.refiner, self.limits.reach(), place, seed)?;
         let why = |why: &String| NoLimit::Vertex(0, why.clone());
         let point = zoom.apply(masks.limit.as_ref().map_err(why)?, [0.0; 3]);
-        let tangents = masks.tangents.as_ref().map(|masks| masks.each_ref().map(|mask| zoom.apply(mask, point)));
-        let expected = tangents.map_err(Clone::clone).and_then(|[a, b]| {
-            unit(cross(a, b), 0.0).ok_or_else(|| "its tangents are parallel for these points".to_string())
-        });
+        let tangents = |zoom: &Zoom| {
+            masks.tangents.as_ref().map(|masks| masks.each_ref().map(|mask| zoom.apply(mask, zoom.centre())))
+        };
+        let first = tangents(&zoom);
         let steps = steps_needed(masks.rates.as_ref(), zoom.points());
-        let mut observed = Vec::with_capacity(steps);
-        for _ in 0..steps {
+        let mut observed = vec![zoom.step()?];
+        let tangent = match (&first, &tangents(&zoom), &masks.rates) {
+            (Ok(first), Ok(second), Some(rates)) => survival(first, second, rates),
+            _ => 0.0,
+        };
+        for _ in 1..steps {
             observed.push(zoom.step()?);
         }
-        let position = (0..3).map(|axis| (point[axis] - zoom.centre()[axis]).abs()).fold(0.0, f64::max);
+        let position = largest_difference(point, zoom.centre());
+        let expected = first.map_err(Clone::clone).and_then(|[a, b]| {
+            unit(cross(a, b), 0.0).ok_or_else(|| "its tangents are parallel for these points".to_string())
+        });
         let normal = expected.map(|normal| Angle {
             angle: angle(normal, zoom.normal()),
             bound: masks.rates.map_or(NORMAL, |rates| normal_bound(&rates, steps)),
         });
         let rates = masks.rates.map(|rates| (rates, zoom::observed(&observed)));
-        let agrees = position <= POSITION && normal.as_ref().is_ok_and(|n| n.angle <= n.bound) | normal.is_err();
-        Ok(Check { place, steps, position, normal, rates, agrees })
+        let normal_agrees = normal.as_ref().map_or(true, |normal| normal.angle <= normal.bound);
+        let agrees = position <= POSITION && tangent <= POSITION && normal_agrees;
+        Ok(Check { place, steps, position, tangent, normal, rates, agrees })
     }
 
     /// The largest differences of limit points and of normals between a level and one some steps later.
@@ -180,26 +191,38 @@ impl Check {
             (Err(_), Ok(known)) | (Ok(known), Err(_)) => Ok(known),
             (Err(why), Err(_)) => Err(why),
         };
-        let position = self.position.max(other.position);
-        Check { normal, position, agrees: self.agrees && other.agrees, ..other }
+        let (position, tangent) = (self.position.max(other.position), self.tangent.max(other.tangent));
+        Check { normal, position, tangent, agrees: self.agrees && other.agrees, ..other }
     }
 }
 
 /// As many steps as it takes until the part across the tangents is lost in rounding, within bounds.
 fn steps_needed(rates: Option<&Rates>, points: usize) -> usize {
-    let ratio = rates.map_or(0.5, |rates| rates.mu / rates.lambda[1]);
-    let position = rates.map_or(0.9, |rates| rates.lambda[0]);
+    let ratio = rates.map_or(0.5, |rates| rates.mu / rates.lambda[0].min(rates.lambda[1]));
+    let position = rates.map_or(0.9, |rates| rates.lambda[0].max(rates.lambda[1]));
     let until =
         |ratio: f64| if ratio < 1.0 { (libm::log(1e-15) / libm::log(ratio.max(1e-3))).ceil() } else { f64::INFINITY };
     let most = MOST_STEPS.min(MOST_POINTS / points.max(1)).max(60);
     (until(ratio).max(until(position)) as usize).clamp(60, most)
 }
 
-/// What slow convergence leaves of the angle: a multiple of (mu/lambda)^m, and of 1/m beside a Jordan block.
+/// What slow convergence leaves of the angle: a multiple of (mu/lambda)^m.
 fn normal_bound(rates: &Rates, steps: usize) -> f64 {
-    let rest = libm::pow(rates.mu / rates.lambda[1], steps as f64);
-    let block = if rates.jordan > 1 { 1.0 / steps as f64 } else { 0.0 };
-    NORMAL.max(100.0 * rest).max(10.0 * block)
+    let rest = libm::pow(rates.mu / rates.lambda[0].min(rates.lambda[1]), steps as f64);
+    if rates.jordan > 1 { f64::INFINITY } else { NORMAL.max(100.0 * rest) }
+}
+
+/// The largest coordinate of u x_1 - lambda u x_0 for both tangent masks.
+fn survival(first: &[[f64; 3]; 2], second: &[[f64; 3]; 2], rates: &Rates) -> f64 {
+    let apart = |tangent: usize| {
+        let factor = rates.lambda[tangent];
+        largest_difference(first[tangent].map(|x| factor * x), second[tangent])
+    };
+    apart(0).max(apart(1))
+}
+
+fn largest_difference(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|axis| (a[axis] - b[axis]).abs()).fold(0.0, |top: f64, x| if x > top || x.is_nan() { x } else { top })
 }
 
 fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -210,17 +233,4 @@ fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
 /// The largest coordinate, at least.
 fn size(positions: &[[f64; 3]]) -> f64 {
     positions.iter().flatten().fold(f64::MIN_POSITIVE, |top, x| top.max(x.abs()))
-}
-
-/// A mask applied to points that are given by their labels, less an origin.
-fn applied(mask: &LabelledMask, labels: &[Label], positions: &[[f64; 3]], origin: [f64; 3]) -> [f64; 3] {
-    let mut sum = [0.0; 3];
-    for (label, weight) in mask {
-        // a label beyond the disc stands for a point that the mask must not have
-        let Some(at) = labels.iter().position(|own| own == label) else { return [f64::NAN; 3] };
-        for axis in 0..3 {
-            sum[axis] += weight * (positions[at][axis] - origin[axis]);
-        }
-    }
-    sum
 }

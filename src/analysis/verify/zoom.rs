@@ -11,7 +11,7 @@
 //! so each keeps its digits however small it becomes.
 
 use super::super::limit::{cross, unit};
-use super::super::places::{LabelledMask, Place};
+use super::super::places::{LabelledMask, Place, point_at};
 use super::Observed;
 use crate::mesh::{
     Connectivity, Crease, Faces, Fan, FanKind, HalfEdgeMesh, Label, Lattice, Numbering, Patch, Tags, disc,
@@ -28,8 +28,7 @@ pub(super) struct Zoom<'r, 'a> {
     tags: Tags,
     /// p.
     points: Vec<[f64; 3]>,
-    /// The labels of the first level's points.
-    labels: Vec<Label>,
+    place: Place,
     /// c.
     centre: [f64; 3],
     /// The columns of L.
@@ -76,7 +75,7 @@ impl<'r, 'a> Zoom<'r, 'a> {
         let points = (0..mesh.vertices()).map(|_| [random.next(), random.next(), random.next()]).collect();
         let middle = if lattice.has_centre() { 1 } else { ring.len() };
         let frame = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        Ok(Zoom { refiner, rings, mesh, tags, points, labels, centre: [0.0; 3], frame, middle, ring, pair })
+        Ok(Zoom { refiner, rings, mesh, tags, points, place, centre: [0.0; 3], frame, middle, ring, pair })
     }
 
     /// The number of points.
@@ -89,9 +88,26 @@ impl<'r, 'a> Zoom<'r, 'a> {
         self.centre
     }
 
-    /// A mask applied to the first level, less an origin.
+    /// A mask applied to the points x of this level, less an origin.
     pub(super) fn apply(&self, mask: &LabelledMask, origin: [f64; 3]) -> [f64; 3] {
-        super::applied(mask, &self.labels, &self.points, origin)
+        let spokes: Vec<u32> = match self.middle {
+            1 => self.ring.iter().filter_map(|at| edge_between(&self.mesh, [0, *at as u32])).collect(),
+            _ => self.mesh.faces().range(0).map(|h| h as u32).collect(),
+        };
+        let lattice = lattice_of(self.refiner.scheme());
+        let mut sum = [0.0; 3];
+        for (label, weight) in mask {
+            // a mask that reaches beyond the disc is none
+            let Some(at) = point_at(&self.mesh, lattice, self.place, &spokes, *label) else { return [f64::NAN; 3] };
+            let x = self.placed(self.points[at as usize]);
+            (0..3).for_each(|axis| sum[axis] += weight * (x[axis] - origin[axis]));
+        }
+        sum
+    }
+
+    /// x = c + L p.
+    fn placed(&self, p: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|axis| self.centre[axis] + (0..3).map(|column| self.frame[column][axis] * p[column]).sum::<f64>())
     }
 
     /// The normal of the plane of the first two coordinates, outward where the ring turns counter-clockwise.
@@ -166,9 +182,7 @@ impl<'r, 'a> Zoom<'r, 'a> {
     fn recentre(&mut self) {
         let count = self.middle as f64;
         let mean = [0, 1, 2].map(|axis| self.points[..self.middle].iter().map(|p| p[axis]).sum::<f64>() / count);
-        for axis in 0..3 {
-            self.centre[axis] += (0..3).map(|column| self.frame[column][axis] * mean[column]).sum::<f64>();
-        }
+        self.centre = self.placed(mean);
         self.points.iter_mut().for_each(|p| (0..3).for_each(|axis| p[axis] -= mean[axis]));
     }
 
