@@ -24,6 +24,9 @@ pub struct LimitSurface {
     pub normals: Vec<[f64; 3]>,
     /// Why vertices have no normal: the first of them, and how many.
     pub without_normal: BTreeMap<String, (u32, usize)>,
+    /// Vertices whose tangents belong to a Jordan block: the first of them, and how many. There is a tangent plane, but the nets come near to it
+    /// like 1/m only.
+    pub slow_normals: Option<(u32, usize)>,
 }
 
 /// Why a mesh has no limit points.
@@ -184,8 +187,15 @@ impl<'a> Limits<'a> {
             places.into_iter().map(|place| Ok((place, self.places.at(place)?))).collect::<Result<_, Obstacle>>()?;
         let masked = Masked { at, lattice: self.lattice, masks };
         let point = |index: usize| masked.point(&sectors(index)).map_err(|why| NoLimit::Vertex(index as u32, why));
+        let slow = |index: &usize| sectors(*index).iter().any(|sector| masked.is_slow(sector.place));
+        let slow_normals = if masked.masks.keys().any(|place| masked.is_slow(*place)) {
+            let slow: Vec<usize> = (0..count).into_par_iter().filter(slow).collect();
+            slow.first().map(|first| (*first as u32, slow.len()))
+        } else {
+            None
+        };
         let points: Vec<PointAndNormal> = (0..count).into_par_iter().map(point).collect::<Result<_, _>>()?;
-        Ok(surface(points))
+        Ok(LimitSurface { slow_normals, ..surface(points) })
     }
 }
 
@@ -200,6 +210,10 @@ struct Masked<'m> {
 type PointAndNormal = ([f64; 3], Result<[f64; 3], String>);
 
 impl Masked<'_> {
+    fn is_slow(&self, place: Place) -> bool {
+        self.masks[&place].rates.is_some_and(|rates| rates.jordan > 1)
+    }
+
     fn point(&self, sectors: &[Sector]) -> Result<PointAndNormal, String> {
         let first = sectors.first().ok_or("it belongs to no face")?;
         let limit = self.masks[&first.place].limit.as_ref().map_err(Clone::clone)?;

@@ -240,6 +240,12 @@ fn say_without_normal(surface: &LimitSurface) {
         let others = if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };
         say(&format!("note: no normal at vertex {first}{others}: {why}"));
     }
+    if let Some((first, count)) = surface.slow_normals {
+        let others = if count > 1 { format!(" and {} more", count - 1) } else { String::new() };
+        let why =
+            "its tangents belong to a Jordan block; the normals of refined meshes come near to its normal like 1/m";
+        say(&format!("note: vertex {first}{others}: {why}"));
+    }
 }
 
 /// Why a mesh can't be refined, in words that help.
