@@ -34,7 +34,7 @@ fn level(soup: &PolygonSoup) -> Done<Level<f32>> {
 /// The mesh one step short of the faces wanted.
 fn short_of(refiner: &Refiner, soup: &PolygonSoup) -> Done<Level<f32>> {
     let mut at = level(soup)?;
-    while at.mesh.faces().len() * 4 * 7 / 10 < FACES / 4 * 3 {
+    while at.mesh.faces().len() * 5 < FACES {
         at = refiner.step(&at, Route::Fast)?;
     }
     Ok(at)

@@ -186,16 +186,7 @@ impl<'a> Limits<'a> {
         let masks =
             places.into_iter().map(|place| Ok((place, self.places.at(place)?))).collect::<Result<_, Obstacle>>()?;
         let masked = Masked { at, lattice: self.lattice, masks };
-        let point = |index: usize| masked.point(&sectors(index)).map_err(|why| NoLimit::Vertex(index as u32, why));
-        let slow = |index: &usize| sectors(*index).iter().any(|sector| masked.is_slow(sector.place));
-        let slow_normals = if masked.masks.keys().any(|place| masked.is_slow(*place)) {
-            let slow: Vec<usize> = (0..count).into_par_iter().filter(slow).collect();
-            slow.first().map(|first| (*first as u32, slow.len()))
-        } else {
-            None
-        };
-        let points: Vec<PointAndNormal> = (0..count).into_par_iter().map(point).collect::<Result<_, _>>()?;
-        Ok(LimitSurface { slow_normals, ..surface(points) })
+        masked.surface(count, sectors)
     }
 }
 
@@ -206,15 +197,62 @@ struct Masked<'m> {
     masks: BTreeMap<Place, PlaceMasks>,
 }
 
-/// A limit point, and the normal or why there is none.
-type PointAndNormal = ([f64; 3], Result<[f64; 3], String>);
+/// Vertices are taken in runs of this many. A tuning.
+const RUN: usize = 4096;
+
+/// What is said of the vertices of a run.
+#[derive(Default)]
+struct Said {
+    without_normal: BTreeMap<String, (u32, usize)>,
+    slow_normals: Option<(u32, usize)>,
+}
+
+/// Some vertices: the first, and how many.
+fn joined(a: Option<(u32, usize)>, b: Option<(u32, usize)>) -> Option<(u32, usize)> {
+    match (a, b) {
+        (Some((first, count)), Some((other, more))) => Some((first.min(other), count + more)),
+        (one, other) => one.or(other),
+    }
+}
 
 impl Masked<'_> {
     fn is_slow(&self, place: Place) -> bool {
         self.masks[&place].rates.is_some_and(|rates| rates.jordan > 1)
     }
 
-    fn point(&self, sectors: &[Sector]) -> Result<PointAndNormal, String> {
+    fn surface(&self, count: usize, sectors: impl Fn(usize) -> Vec<Sector> + Sync) -> Result<LimitSurface, NoLimit> {
+        let (mut positions, mut normals) = (vec![[0.0; 3]; count], vec![[0.0; 3]; count]);
+        let runs = positions.par_chunks_mut(RUN).zip(normals.par_chunks_mut(RUN)).enumerate();
+        let said = runs.map(|(run, (positions, normals))| {
+            let mut said = Said::default();
+            for (at, (position, normal)) in positions.iter_mut().zip(normals).enumerate() {
+                let vertex = (run * RUN + at) as u32;
+                let sectors = sectors(vertex as usize);
+                let found = self.point(&sectors).map_err(|why| NoLimit::Vertex(vertex, why))?;
+                *position = found.0;
+                match found.1 {
+                    Ok(found) => *normal = found,
+                    Err(why) => said.without_normal.entry(why).or_insert((vertex, 0)).1 += 1,
+                }
+                if sectors.iter().any(|sector| self.is_slow(sector.place)) {
+                    said.slow_normals = joined(said.slow_normals, Some((vertex, 1)));
+                }
+            }
+            Ok(said)
+        });
+        let said: Vec<Said> = said.collect::<Result<_, NoLimit>>()?;
+        let mut surface = LimitSurface { positions, normals, ..LimitSurface::default() };
+        for said in said {
+            surface.slow_normals = joined(surface.slow_normals, said.slow_normals);
+            for (why, (first, count)) in said.without_normal {
+                surface.without_normal.entry(why).or_insert((first, 0)).1 += count;
+            }
+        }
+        Ok(surface)
+    }
+
+    /// A limit point, and the normal or why there is none.
+    fn point(&self, sectors: &[Sector]) -> Result<([f64; 3], Result<[f64; 3], String>), String> {
         let first = sectors.first().ok_or("it belongs to no face")?;
         let limit = self.masks[&first.place].limit.as_ref().map_err(Clone::clone)?;
         let position = self.sum(first, limit, [0.0; 3])?;
@@ -248,18 +286,6 @@ impl Masked<'_> {
         }
         Ok(sum)
     }
-}
-
-fn surface(points: Vec<PointAndNormal>) -> LimitSurface {
-    let mut surface = LimitSurface::default();
-    for (vertex, (position, normal)) in points.into_iter().enumerate() {
-        surface.positions.push(position);
-        surface.normals.push(normal.unwrap_or_else(|why| {
-            surface.without_normal.entry(why).or_insert((vertex as u32, 0)).1 += 1;
-            [0.0; 3]
-        }));
-    }
-    surface
 }
 
 /// The corners of a face as the spokes of its middle.

@@ -4,7 +4,8 @@ use super::{Failure, failure, say};
 use clap::{Args, ValueEnum};
 use eigenring::mesh::io::{Format, Output, read, write};
 use eigenring::mesh::{
-    Connectivity, Crease, HalfEdgeMesh, NotAMesh, PolygonSoup, Tags, drop_isolated, first_corner, split_non_manifold,
+    Connectivity, Crease, Faces, HalfEdgeMesh, NotAMesh, PolygonSoup, Tags, drop_isolated, first_corner,
+    split_non_manifold,
 };
 use eigenring::report::write_in_pieces;
 use std::collections::BTreeMap;
@@ -86,8 +87,8 @@ impl Reading {
     }
 }
 
-fn no_faces() -> eigenring::mesh::Faces {
-    eigenring::mesh::Faces::same(3, Vec::new())
+fn no_faces() -> Faces {
+    Faces::same(3, Vec::new())
 }
 
 fn not_a_mesh(path: &Path, wrong: &NotAMesh) -> Failure {
@@ -173,30 +174,38 @@ fn newell(face: &[u32], positions: &[[f64; 3]]) -> [f64; 3] {
     let mut normal = [0.0; 3];
     for (a, b) in face.iter().zip(face.iter().cycle().skip(1)) {
         let (p, q) = (positions[*a as usize], positions[*b as usize]);
-        for axis in 0..3 {
-            let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-            normal[axis] += (p[next] - q[next]) * (p[last] + q[last]);
-        }
+        let part = |next: usize, last: usize| (p[next] - q[next]) * (p[last] + q[last]);
+        normal = [normal[0] + part(1, 2), normal[1] + part(2, 0), normal[2] + part(0, 1)];
     }
     let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
     if length > 0.0 { normal.map(|x| x / length) } else { normal }
 }
 
-/// Vertices, edges, faces, Euler characteristic and valences in a line.
+/// Vertices, edges, faces, Euler characteristic and valences of a mesh.
 pub(crate) fn statistics(what: &str, mesh: &HalfEdgeMesh) -> String {
-    let (vertices, edges, faces) = (mesh.vertices(), mesh.edge_count(), mesh.faces().len());
-    let euler = vertices as i64 - edges as i64 + faces as i64;
     let (mut inside, mut boundary): (BTreeMap<usize, usize>, BTreeMap<usize, usize>) = Default::default();
     for h in mesh.vertex_edges() {
         let histogram = if mesh.boundary_at(*h).is_some() { &mut boundary } else { &mut inside };
         *histogram.entry(mesh.valence(*h)).or_default() += 1;
     }
-    let mut text = format!("{what}: {vertices} vertices, {edges} edges, {faces} faces, Euler characteristic {euler}\n");
-    text += &format!("  valences {}", histogram(&inside));
-    if !boundary.is_empty() {
-        text += &format!("; on the boundary {}", histogram(&boundary));
-    }
-    text
+    let text = counts(what, mesh.vertices(), mesh.edge_count(), mesh.faces().len());
+    let on_boundary =
+        if boundary.is_empty() { String::new() } else { format!("; on the boundary {}", histogram(&boundary)) };
+    format!("{text}\n  valences {}{on_boundary}", histogram(&inside))
+}
+
+/// The same of faces that no mesh was made of: told by the number of faces at each vertex, which is the valence inside.
+pub(crate) fn statistics_of_faces(what: &str, vertices: usize, edges: usize, faces: &Faces) -> String {
+    let mut at_vertex = vec![0_u32; vertices];
+    faces.corners().iter().for_each(|vertex| at_vertex[*vertex as usize] += 1);
+    let mut numbers = BTreeMap::new();
+    at_vertex.iter().for_each(|count| *numbers.entry(*count as usize).or_insert(0) += 1);
+    format!("{}\n  faces at a vertex {}", counts(what, vertices, edges, faces.len()), histogram(&numbers))
+}
+
+fn counts(what: &str, vertices: usize, edges: usize, faces: usize) -> String {
+    let euler = vertices as i64 - edges as i64 + faces as i64;
+    format!("{what}: {vertices} vertices, {edges} edges, {faces} faces, Euler characteristic {euler}")
 }
 
 fn histogram(counts: &BTreeMap<usize, usize>) -> String {

@@ -1,14 +1,14 @@
 //! `refine` and `limit`: what becomes of this mesh?
 
 use super::analyze::explain;
-use super::mesh_file::{Loaded, Reading, check_destination, creases_of, save, statistics};
+use super::mesh_file::{Loaded, Reading, check_destination, creases_of, save, statistics, statistics_of_faces};
 use super::open::{boundary_of, open_checked};
 use super::{Failure, failure, memory, say};
 use clap::{Args, ValueEnum};
 use eigenring::analysis::limit::{LimitSurface, Limits, NoLimit};
 use eigenring::analysis::local::MAX_VALENCE;
 use eigenring::mesh::io::{Coordinates, Output};
-use eigenring::mesh::{Connectivity, HalfEdgeMesh};
+use eigenring::mesh::{Connectivity, HalfEdgeMesh, Split};
 use eigenring::refine::{Buffers, Coordinate, Counts, Level, NotRefinable, Obstacle, Refined, Refiner, Route};
 use eigenring::scheme::Scheme;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -119,11 +119,13 @@ impl Job {
         refiner.fits(&loaded.mesh, &loaded.tags).map_err(|wrong| refused(scheme, wrong))?;
         check_size::<T>(&refiner, &loaded.mesh, levels, to_limit)?;
         let start = Instant::now();
-        let positions = loaded.positions.iter().map(|p| p.map(T::from_f64)).collect();
+        let positions = loaded.positions.into_iter().map(|p| p.map(T::from_f64)).collect();
         let mut at = Level { mesh: loaded.mesh, positions, tags: loaded.tags };
         let bar = progress(levels, Counts::of(&at.mesh).faces << (2 * levels as u32).min(100));
         // of the last step no mesh is needed, unless something is to be done with it
-        let whole_steps = if to_limit || !at.tags.is_empty() { levels } else { levels.saturating_sub(1) };
+        let receding = refiner.split() == Split::Dual && !at.mesh.is_closed();
+        let whole = to_limit || receding || !at.tags.is_empty();
+        let whole_steps = if whole { levels } else { levels.saturating_sub(1) };
         let mut buffers = Buffers::default();
         for _ in 0..whole_steps {
             let next = refiner.step_in(&at, Route::Fast, &mut buffers).map_err(|wrong| refused(scheme, wrong))?;
@@ -136,14 +138,18 @@ impl Job {
         } else if whole_steps < levels {
             let Refined { faces, positions } =
                 refiner.last_step(&at, Route::Fast).map_err(|wrong| refused(scheme, wrong))?;
+            let edges = Counts::of(&at.mesh).after(refiner.split()).edges;
             drop(at);
             bar.finish_and_clear();
-            say(&made("refined", positions.len(), faces.len(), start.elapsed()));
+            let time = start.elapsed();
+            say(&statistics_of_faces("refined", positions.len(), edges as usize, &faces));
+            say(&made(faces.len(), time));
             save(&self.out, &Output::new(positions.as_slice(), &faces))
         } else {
             bar.finish_and_clear();
+            let time = start.elapsed();
             say(&statistics("refined", &at.mesh));
-            say(&made("refined", at.positions.len(), at.mesh.faces().len(), start.elapsed()));
+            say(&made(at.mesh.faces().len(), time));
             let (creases, corners) = (creases_of(&at.mesh, &at.tags), at.tags.corners());
             save(&self.out, &Output::new(at.positions.as_slice(), at.mesh.faces()).tags(&creases, corners))
         }
@@ -161,18 +167,19 @@ impl Job {
         for<'a> &'a [[T; 3]]: Into<Coordinates<'a>>,
     {
         let limits = Limits::new(refiner).map_err(|obstacle| explain(scheme, obstacle))?;
-        let positions = at.positions.iter().map(|p| p.map(T::to_f64)).collect();
+        let positions = at.positions.into_iter().map(|p| p.map(T::to_f64)).collect();
         let at = Level { mesh: at.mesh, positions, tags: at.tags };
         let more = limits.steps_before(&at);
         check_size::<f64>(refiner, &at.mesh, more, true)?;
         bar.inc_length(more as u64);
         let surface = limits.of(&at, &|| bar.inc(1)).map_err(|wrong| no_limit(scheme, wrong))?;
         bar.finish_and_clear();
-        say(&statistics("limit", &at.mesh));
-        say(&made("pushed to the limit", surface.positions.len(), at.mesh.faces().len(), start.elapsed()));
+        let time = start.elapsed();
+        say(&statistics("pushed to the limit", &at.mesh));
+        say(&made(at.mesh.faces().len(), time));
         say_without_normal(&surface);
-        let positions: Vec<[T; 3]> = surface.positions.iter().map(|p| p.map(T::from_f64)).collect();
-        let normals: Vec<[T; 3]> = surface.normals.iter().map(|n| n.map(T::from_f64)).collect();
+        let positions: Vec<[T; 3]> = surface.positions.into_iter().map(|p| p.map(T::from_f64)).collect();
+        let normals: Vec<[T; 3]> = surface.normals.into_iter().map(|n| n.map(T::from_f64)).collect();
         save(&self.out, &Output::new(positions.as_slice(), at.mesh.faces()).normals(normals.as_slice()))
     }
 }
@@ -186,7 +193,7 @@ pub(crate) fn valences_of(mesh: &HalfEdgeMesh) -> Vec<usize> {
     valences.into_iter().take(CHECKED).collect()
 }
 
-/// Checks, before starting, that indices and memory suffice for the last of some steps.
+/// Checks, before starting, that indices and memory suffice for some steps.
 fn check_size<T: Coordinate>(
     refiner: &Refiner,
     mesh: &HalfEdgeMesh,
@@ -194,13 +201,16 @@ fn check_size<T: Coordinate>(
     to_limit: bool,
 ) -> Result<(), Failure> {
     let mut counts = Counts::of(mesh);
-    let (mut most, mut fits) = (0, 0);
+    let limit_of = |counts: Counts| if to_limit { counts.bytes_of_mesh::<f64>() + counts.bytes_of_limit() } else { 0 };
+    let mut most = limit_of(counts);
+    let (mut needed, mut fits) = (most, 0);
     let available = memory::available();
     for level in 1..=levels {
-        let last = if level == levels && to_limit { counts.after(refiner.split()).bytes_of_mesh::<f64>() } else { 0 };
-        most = most.max(counts.bytes_of_step::<T>(refiner.split()) + last);
+        most = most.max(counts.bytes_of_step::<T>(refiner.split()));
         counts = counts.after(refiner.split());
-        if counts.can_be_numbered() && available.is_none_or(|available| most <= available) {
+        // of the last level a mesh is made, to be told about or pushed to the limit
+        needed = most.max(counts.bytes_of_mesh::<T>()).max(limit_of(counts));
+        if counts.can_be_numbered() && available.is_none_or(|available| needed <= available) {
             fits = level;
         }
     }
@@ -212,7 +222,7 @@ fn check_size<T: Coordinate>(
         return Err(failure(format!("{message}\n  help: {help}")));
     }
     let what = format!("a mesh of {} faces after {levels} steps", counts.faces);
-    memory::check(most, &what, &help)
+    memory::check(needed, &what, &help)
 }
 
 /// A bar on a terminal, when there will be much to do.
@@ -228,11 +238,11 @@ fn progress(levels: usize, faces: u128) -> ProgressBar {
     bar
 }
 
-fn made(what: &str, vertices: usize, faces: usize, time: Duration) -> String {
+fn made(faces: usize, time: Duration) -> String {
     let (seconds, millions) = (time.as_secs_f64(), faces as f64 / 1e6);
     let speed =
         if millions > 0.1 { format!(", {:.1} million faces a second", millions / seconds) } else { String::new() };
-    format!("{what}: {vertices} vertices, {faces} faces in {seconds:.3} s{speed}")
+    format!("  in {seconds:.3} s{speed}")
 }
 
 fn say_without_normal(surface: &LimitSurface) {

@@ -149,7 +149,7 @@ impl Faces {
         match &self.sides {
             Sides::Same(4) => corner & !3 | (corner + 3) & 3,
             Sides::Same(size) => {
-                if corner % size == 0 {
+                if corner.is_multiple_of(*size) {
                     corner + size - 1
                 } else {
                     corner - 1

@@ -64,6 +64,11 @@ impl Counts {
         self.bytes_of_faces::<T>() + 4 * self.corners + 4 * self.vertices
     }
 
+    /// The bytes of limit points and normals.
+    pub fn bytes_of_limit(self) -> u128 {
+        2 * 3 * size_of::<f64>() as u128 * self.vertices
+    }
+
     /// The most bytes that are in use at one time during a step: the old mesh, the numbers of its edges, and the new faces and points.
     pub fn bytes_of_step<T: Coordinate>(self, split: Split) -> u128 {
         let numbering = 4 * self.corners + 4 * self.edges;

@@ -197,8 +197,8 @@ impl<'a, W: Field> Refinement<'a, W> {
         }
     }
 
-    /// The row of the point that replaces the origin of `edge`: by the rule [vertex] where at most one crease ends there, by
-    /// [vertex.crease], told around one side, where one passes through, by [vertex.corner] where three or more meet or the
+    /// The row of the point that replaces the origin of `edge`: by the rule `[vertex]` where at most one crease ends there, by
+    /// `[vertex.crease]`, told around one side, where one passes through, by `[vertex.corner]` where three or more meet or the
     /// vertex is tagged so. A boundary is a crease with nothing beyond it.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! Do the masks say what the mesh engine does?
 //!
-//! For each place random points on a mesh around it, refined deeply ([`zoom`]), against its masks applied once to the first level: the
+//! For each place random points on a mesh around it, refined deeply (`zoom`), against its masks applied once to the first level: the
 //! limit point, the normal, and how fast rings shrink; and tangent masks against a single step, u x_1 = lambda u x_0. And on whole meshes: limits from one level against those from some steps later.
 //! Everything is `f64` arithmetic with the tolerances stated: evidence, not proof.
 
@@ -170,12 +170,11 @@ impl Levels {
         let mut found = Levels { vertices: 0, position: 0.0, normal: 0.0, without_normal: 0, agrees: true };
         for (vertex, position) in first.positions.iter().enumerate() {
             found.vertices += 1;
-            let apart = (0..3).map(|axis| (position[axis] - second.positions[vertex][axis]).abs()).fold(0.0, f64::max);
-            found.position = found.position.max(apart / size);
+            found.position = worse(found.position, largest_difference(*position, second.positions[vertex]) / size);
             let normals = [first.normals[vertex], second.normals[vertex]];
             match normals.contains(&[0.0; 3]) {
                 true => found.without_normal += 1,
-                false => found.normal = found.normal.max(angle(normals[0], normals[1])),
+                false => found.normal = worse(found.normal, angle(normals[0], normals[1])),
             }
         }
         found.agrees = found.position <= POSITION && found.normal <= NORMAL;
@@ -191,7 +190,7 @@ impl Check {
             (Err(_), Ok(known)) | (Ok(known), Err(_)) => Ok(known),
             (Err(why), Err(_)) => Err(why),
         };
-        let (position, tangent) = (self.position.max(other.position), self.tangent.max(other.tangent));
+        let (position, tangent) = (worse(self.position, other.position), worse(self.tangent, other.tangent));
         Check { normal, position, tangent, agrees: self.agrees && other.agrees, ..other }
     }
 }
@@ -218,11 +217,16 @@ fn survival(first: &[[f64; 3]; 2], second: &[[f64; 3]; 2], rates: &Rates) -> f64
         let factor = rates.lambda[tangent];
         largest_difference(first[tangent].map(|x| factor * x), second[tangent])
     };
-    apart(0).max(apart(1))
+    worse(apart(0), apart(1))
 }
 
 fn largest_difference(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|axis| (a[axis] - b[axis]).abs()).fold(0.0, |top: f64, x| if x > top || x.is_nan() { x } else { top })
+    (0..3).map(|axis| (a[axis] - b[axis]).abs()).fold(0.0, worse)
+}
+
+/// The larger of two differences; what is no number is worse than any.
+fn worse(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
 }
 
 fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
