@@ -63,7 +63,9 @@ fn the_new_mesh_is_the_one_that_its_faces_make() {
         for (index, shape) in shapes.iter().enumerate() {
             let mut at = level(shape);
             for step in 0..3 {
+                let last = refiner.finish(at.clone(), Route::Fast).unwrap();
                 at = refiner.step(&at, Route::Fast).unwrap();
+                assert!(last.faces == *at.mesh.faces() && last.positions == at.positions, "{id} {index} {step}");
                 at.mesh.validate().unwrap_or_else(|wrong| panic!("{id} {index} {step}: {wrong}"));
                 let found = HalfEdgeMesh::new(at.mesh.vertices(), at.mesh.faces().clone()).unwrap();
                 assert_eq!(found.twins(), at.mesh.twins(), "{id}, shape {index}, step {step}");

@@ -136,10 +136,9 @@ impl Job {
         if to_limit {
             self.write_limit::<T>(scheme, &refiner, at, start, &bar)
         } else if whole_steps < levels {
-            let Refined { faces, positions } =
-                refiner.last_step(&at, Route::Fast).map_err(|wrong| refused(scheme, wrong))?;
             let edges = Counts::of(&at.mesh).after(refiner.split()).edges;
-            drop(at);
+            let Refined { faces, positions } =
+                refiner.finish(at, Route::Fast).map_err(|wrong| refused(scheme, wrong))?;
             bar.finish_and_clear();
             let time = start.elapsed();
             say(&statistics_of_faces("refined", positions.len(), edges as usize, &faces));

@@ -69,10 +69,10 @@ impl Counts {
         2 * 3 * size_of::<f64>() as u128 * self.vertices
     }
 
-    /// The most bytes that are in use at one time during a step: the old mesh, the numbers of its edges, and the new faces and points.
+    /// The most bytes that are in use at one time during a step: the old mesh, the numbers of its edges, and the new mesh and points.
     pub fn bytes_of_step<T: Coordinate>(self, split: Split) -> u128 {
         let numbering = 4 * self.corners + 4 * self.edges;
-        self.bytes_of_mesh::<T>() + numbering + self.after(split).bytes_of_faces::<T>()
+        self.bytes_of_mesh::<T>() + numbering + self.after(split).bytes_of_mesh::<T>()
     }
 }
 

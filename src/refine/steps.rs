@@ -222,6 +222,35 @@ impl<'a> Refiner<'a> {
         route: Route,
         buffers: &mut Buffers<T>,
     ) -> Result<Refined<T>, NotRefinable> {
+        let positions = self.new_positions(level, route, buffers)?;
+        let corners = std::mem::take(&mut buffers.corners);
+        let faces = self.split.faces(&level.mesh, &buffers.numbering, corners);
+        Ok(Refined { faces, positions })
+    }
+
+    /// A last step that uses its level up: what the faces don't need is given back before they are made.
+    ///
+    /// # Errors
+    /// As [`Refiner::step`].
+    pub fn finish<T: Coordinate>(&self, level: Level<T>, route: Route) -> Result<Refined<T>, NotRefinable> {
+        let mut buffers = Buffers::default();
+        let positions = self.new_positions(&level, route, &mut buffers)?;
+        let Level { mesh, positions: old, tags } = level;
+        drop((old, tags));
+        let numbering = match self.split {
+            Split::Dual => buffers.numbering,
+            _ => buffers.numbering.without_first_corners(),
+        };
+        Ok(Refined { faces: self.split.faces(&mesh, &numbering, Vec::new()), positions })
+    }
+
+    /// The points of the next level; edges are numbered on the way.
+    fn new_positions<T: Coordinate>(
+        &self,
+        level: &Level<T>,
+        route: Route,
+        buffers: &mut Buffers<T>,
+    ) -> Result<Vec<Point<T>>, NotRefinable> {
         self.fits(&level.mesh, &level.tags)?;
         self.split.new_corners(&level.mesh)?;
         buffers.numbering = Numbering::in_buffers(&level.mesh, std::mem::take(&mut buffers.numbering));
@@ -240,8 +269,7 @@ impl<'a> Refiner<'a> {
             }
             None => self.all_by_rows(level, numbering, &mut positions)?,
         }
-        let faces = self.split.faces(&level.mesh, numbering, std::mem::take(&mut buffers.corners));
-        Ok(Refined { faces, positions })
+        Ok(positions)
     }
 
     /// The rows of all new points, in order: how each is made of the old ones.

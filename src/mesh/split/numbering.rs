@@ -14,6 +14,7 @@ pub struct Numbering {
     number: Vec<u32>,
     /// The first corner of each edge.
     first: Vec<u32>,
+    edges: usize,
 }
 
 impl Numbering {
@@ -52,12 +53,17 @@ impl Numbering {
                 }
             }
         });
-        Numbering { number, first }
+        Numbering { number, edges: first.len(), first }
     }
 
     /// The number of edges.
     pub fn edges(&self) -> usize {
-        self.first.len()
+        self.edges
+    }
+
+    /// Gives back the memory of the first corners, once all points are made: faces need the numbers alone.
+    pub fn without_first_corners(self) -> Numbering {
+        Numbering { first: Vec::new(), ..self }
     }
 
     /// The number of the edge with this first corner.
