@@ -10,6 +10,9 @@
 //! 4. [`verdicts`]: what follows, and from which theorem?
 //! 5. [`report`]: tables and pictures.
 //!
+//! The same rules refine real meshes: [`mesh::io`] reads one, [`mesh::HalfEdgeMesh`] holds it, [`refine::Refiner`] refines it,
+//! [`analysis::limit`] pushes it to the limit by the masks, and [`analysis::verify`] checks these against it.
+//!
 //! ```
 //! use eigenring::analysis::Analyzer;
 //! use eigenring::refine;
@@ -47,6 +50,21 @@
 //! for verdict in verdicts(&analysis, &sums) {
 //!     assert!(!verdict.why.is_empty());                   // proved, refuted or undecided, and why
 //! }
+//!
+//! // the same scheme on a mesh: a step, and the limit of its vertices
+//! use eigenring::analysis::limit::Limits;
+//! use eigenring::mesh::{HalfEdgeMesh, Tags, shapes};
+//! use eigenring::refine::{Level, Refiner, Route};
+//!
+//! let shape = shapes::tetrahedron();
+//! let mesh = HalfEdgeMesh::new(shape.positions.len(), shape.faces)?;
+//! let level = Level { mesh, positions: shape.positions, tags: Tags::default() };
+//! let refiner = Refiner::new(&scheme, None)?;
+//! let finer = refiner.step(&level, Route::Fast)?;
+//! assert_eq!((finer.mesh.vertices(), finer.mesh.faces().len()), (4 + 6, 4 * 4));
+//! let limits = Limits::new(&refiner)?;
+//! let (here, there) = (limits.of(&level, &|| ())?, limits.of(&finer, &|| ())?);
+//! assert!((here.positions[0][0] - there.positions[0][0]).abs() < 1e-15);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
