@@ -118,5 +118,8 @@ fn limits_of_meshes_are_compared() {
         let level = Level { mesh, positions: soup.positions, tags: Tags::default() };
         let levels = verifier.levels(&level, 3).unwrap();
         assert!(levels.agrees && levels.vertices == level.mesh.vertices(), "{levels:?}");
+        // the net of a spline converges quadratically in the size of its faces
+        let ratio = levels.gaps[2] / levels.gaps[3];
+        assert!(levels.gaps.len() == 4 && (3.0..5.0).contains(&ratio), "{levels:?}");
     }
 }

@@ -215,17 +215,18 @@ fn text(scheme: &Scheme, asked: &Verify, checks: &[Check], meshes: &[OnMesh]) ->
          the factors\nby which tangents shrink in a step; mu: that of what is beside them.\n"
     );
     for mesh in meshes {
-        let Levels { vertices, position, normal, without_normal, agrees } = mesh.levels;
-        let verdict = if agrees { "agree" } else { "DIFFER" };
-        let none = if without_normal > 0 { format!(", {without_normal} without a normal") } else { String::new() };
+        let Levels { vertices, position, normal, without_normal, gaps, agrees } = &mesh.levels;
+        let verdict = if *agrees { "agree" } else { "DIFFER" };
+        let none = if *without_normal > 0 { format!(", {without_normal} without a normal") } else { String::new() };
         let _ = writeln!(
             text,
             "{}: limits of level 0 and level {} {verdict}: positions {} of its size, normals {}, {vertices} vertices{none}",
             mesh.name,
             mesh.steps,
-            bound(position),
-            bound(normal)
+            bound(*position),
+            bound(*normal)
         );
+        let _ = writeln!(text, "  from the control net to the limit: {}", shrinking(gaps));
     }
     let wrong =
         checks.iter().filter(|check| !check.agrees).count() + meshes.iter().filter(|m| !m.levels.agrees).count();
@@ -271,6 +272,16 @@ fn line(check: &Check) -> String {
     )
 }
 
+/// Distances level by level, and by which factor the last one is smaller than the one before.
+fn shrinking(gaps: &[f64]) -> String {
+    let list: Vec<String> = gaps.iter().map(|gap| format!("{gap:.3e}")).collect();
+    let ratio = match gaps {
+        [.., before, last] if *last > 0.0 => format!("; {:.3} times less in the last step", before / last),
+        _ => String::new(),
+    };
+    format!("{}{ratio}", list.join(", "))
+}
+
 fn csv(checks: &[Check], meshes: &[OnMesh]) -> String {
     let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
     let mut text = "place,steps,position,tangent,normal,normal_bound,lambda_1,lambda_2,lambda_1_seen,lambda_2_seen,mu,mu_seen,agrees,why\n"
@@ -298,7 +309,7 @@ fn csv(checks: &[Check], meshes: &[OnMesh]) -> String {
         );
     }
     for mesh in meshes {
-        let Levels { position, normal, agrees, .. } = mesh.levels;
+        let Levels { position, normal, agrees, .. } = &mesh.levels;
         let name = mesh.name.replace('"', "'");
         let _ = writeln!(text, "\"{name}\",{},{position},,{normal},{NORMAL},,,,,,,{agrees},", mesh.steps);
     }

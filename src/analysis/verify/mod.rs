@@ -136,22 +136,35 @@ impl<'a> Verifier<'a> {
     /// When the level can't be refined, or a vertex has no limit point.
     pub fn levels(&self, level: &Level<f64>, steps: usize) -> Result<Levels, NoLimit> {
         let first = self.limits.of(level, &|| ())?;
+        let mut gaps = vec![gap(level, &first)];
+        let mut second = None;
         let mut later: Option<Level<f64>> = None;
         for _ in 0..steps {
-            later = Some(self.refiner.step(later.as_ref().unwrap_or(level), Route::Fast)?);
+            let next = self.refiner.step(later.as_ref().unwrap_or(level), Route::Fast)?;
+            let limit = self.limits.of(&next, &|| ())?;
+            gaps.push(gap(&next, &limit));
+            (second, later) = (Some(limit), Some(next));
         }
-        let later = later.as_ref().unwrap_or(level);
-        let second = match self.refiner.split() {
+        if let (Split::Dual, Some(later)) = (self.refiner.split(), &later) {
             // a vertex becomes a face, which keeps its number
-            Split::Dual if steps > 0 => self.limits.of_faces(later, self.limits.faces_of_vertices(level)?)?,
-            _ => self.limits.of(later, &|| ())?,
-        };
-        Ok(Levels::between(&first, &second, size(&level.positions)))
+            second = Some(self.limits.of_faces(later, self.limits.faces_of_vertices(level)?)?);
+        }
+        let found = Levels::between(&first, second.as_ref().unwrap_or(&first), size(&level.positions));
+        Ok(Levels { gaps, ..found })
     }
 }
 
+/// The largest distance of a vertex from its limit.
+fn gap(level: &Level<f64>, limit: &LimitSurface) -> f64 {
+    let distance = |(a, b): (&[f64; 3], &[f64; 3])| {
+        let apart = [0, 1, 2].map(|axis| a[axis] - b[axis]);
+        dot(apart, apart).sqrt()
+    };
+    level.positions.iter().zip(&limit.positions).map(distance).fold(0.0, worse)
+}
+
 /// Limits from a level and from a later one.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Levels {
     /// The number of vertices compared.
     pub vertices: usize,
@@ -161,13 +174,16 @@ pub struct Levels {
     pub normal: f64,
     /// The number of vertices without a normal at one level or both.
     pub without_normal: usize,
+    /// The largest distance of a vertex from its limit, at each level from the first to the later one: how fast the control net converges.
+    pub gaps: Vec<f64>,
     /// Whether they agree.
     pub agrees: bool,
 }
 
 impl Levels {
     fn between(first: &LimitSurface, second: &LimitSurface, size: f64) -> Levels {
-        let mut found = Levels { vertices: 0, position: 0.0, normal: 0.0, without_normal: 0, agrees: true };
+        let mut found =
+            Levels { vertices: 0, position: 0.0, normal: 0.0, without_normal: 0, gaps: Vec::new(), agrees: true };
         for (vertex, position) in first.positions.iter().enumerate() {
             found.vertices += 1;
             found.position = worse(found.position, largest_difference(*position, second.positions[vertex]) / size);
