@@ -197,6 +197,9 @@ struct Masked<'m> {
     masks: BTreeMap<Place, PlaceMasks>,
 }
 
+/// A limit point, and the normal or why there is none.
+type PointAndNormal = ([f64; 3], Result<[f64; 3], String>);
+
 /// Vertices are taken in runs of this many. A tuning.
 const RUN: usize = 4096;
 
@@ -252,7 +255,7 @@ impl Masked<'_> {
     }
 
     /// A limit point, and the normal or why there is none.
-    fn point(&self, sectors: &[Sector]) -> Result<([f64; 3], Result<[f64; 3], String>), String> {
+    fn point(&self, sectors: &[Sector]) -> Result<PointAndNormal, String> {
         let first = sectors.first().ok_or("it belongs to no face")?;
         let limit = self.masks[&first.place].limit.as_ref().map_err(Clone::clone)?;
         let position = self.sum(first, limit, [0.0; 3])?;

@@ -57,6 +57,11 @@ impl HalfEdgeMesh {
         [self.faces.into_corners(), self.twin, self.leaving]
     }
 
+    /// Faces and twins alone.
+    pub(super) fn into_faces_and_twins(self) -> (Faces, Vec<u32>) {
+        (self.faces, self.twin)
+    }
+
     /// The number of vertices.
     pub fn vertices(&self) -> usize {
         self.leaving.len()

@@ -237,11 +237,7 @@ impl<'a> Refiner<'a> {
         let positions = self.new_positions(&level, route, &mut buffers)?;
         let Level { mesh, positions: old, tags } = level;
         drop((old, tags));
-        let numbering = match self.split {
-            Split::Dual => buffers.numbering,
-            _ => buffers.numbering.without_first_corners(),
-        };
-        Ok(Refined { faces: self.split.faces(&mesh, &numbering, Vec::new()), positions })
+        Ok(Refined { faces: self.split.last_faces(mesh, buffers.numbering), positions })
     }
 
     /// The points of the next level; edges are numbered on the way.

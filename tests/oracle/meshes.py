@@ -388,7 +388,6 @@ def dual_step(mesh, scheme):
             beyond = [side for side in mesh.sides[e] if side != (f, (i - 1) % len(mesh.faces[f]))]
             own.append(("turn", *beyond[0]))
         keys.append(own)
-    # on the quad, the point of corner (f, i) is followed by that of the corner after (g, j), both at the vertex that (f, i) leaves
     return Mesh(faces, dual_points(mesh, scheme), keys)
 
 
@@ -396,7 +395,10 @@ def dual_step(mesh, scheme):
 
 
 def cut_out(mesh, v, rings):
-    """The faces within some rings around a vertex, which becomes number 0, with the keys of their edges."""
+    """The faces within some rings around a vertex, which becomes number 0, with the keys of their edges.
+
+    The rim of the piece is no boundary of the mesh: what goes wrong there is cut off after the next step.
+    """
     inside, chosen = {v}, []
     for _ in range(rings):
         chosen = [f for f, face in enumerate(mesh.faces) if inside.intersection(face)]
@@ -406,7 +408,6 @@ def cut_out(mesh, v, rings):
     sharp = {mesh.keys[e]: mesh.sharpness[e] for f in chosen for e in mesh.edges[f]}
     piece = Mesh([[order[p] for p in mesh.faces[f]] for f in chosen], mesh.points[list(order)], keys, sharp,
                  {order[c] for c in mesh.corners if c in order})
-    # the rim of the piece is no boundary; what goes wrong there is cut off after the next step
     return piece
 
 
@@ -708,7 +709,7 @@ def read_glb(data):
     return Read(positions, triangles.tolist(), normals)
 
 
-def obj_of(mesh, plain=True):
+def obj_of(mesh):
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh.points.tolist()]
     lines += ["f " + " ".join(str(v + 1) for v in face) for face in mesh.faces]
     for k, (e, s) in enumerate(mesh.tagged.items()):

@@ -91,10 +91,24 @@ impl Split {
 
     /// The new faces, in the memory of `buffer` as far as it suffices.
     pub fn faces(self, mesh: &HalfEdgeMesh, numbering: &Numbering, buffer: Vec<u32>) -> Faces {
+        let (faces, twins, vertices) = (mesh.faces(), mesh.twins(), mesh.vertices());
         match self {
-            Split::OneToFour => one_to_four::faces(mesh, numbering, buffer),
-            Split::OneToN => one_to_n::faces(mesh, numbering, buffer),
+            Split::OneToFour => one_to_four::faces(faces, twins, vertices, numbering, buffer),
+            Split::OneToN => one_to_n::faces(faces, twins, vertices, numbering, buffer),
             Split::Dual => dual::faces(mesh, numbering, buffer),
+        }
+    }
+
+    /// The new faces of a mesh that is needed for nothing else: what they are not made of is given back first.
+    pub fn last_faces(self, mesh: HalfEdgeMesh, numbering: Numbering) -> Faces {
+        if self == Split::Dual {
+            return dual::faces(&mesh, &numbering, Vec::new());
+        }
+        let (vertices, numbering) = (mesh.vertices(), numbering.without_first_corners());
+        let (faces, twins) = mesh.into_faces_and_twins();
+        match self {
+            Split::OneToFour => one_to_four::faces(&faces, &twins, vertices, &numbering, Vec::new()),
+            _ => one_to_n::faces(&faces, &twins, vertices, &numbering, Vec::new()),
         }
     }
 

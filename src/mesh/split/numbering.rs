@@ -62,7 +62,7 @@ impl Numbering {
     }
 
     /// Gives back the memory of the first corners, once all points are made: faces need the numbers alone.
-    pub fn without_first_corners(self) -> Numbering {
+    pub(super) fn without_first_corners(self) -> Numbering {
         Numbering { first: Vec::new(), ..self }
     }
 

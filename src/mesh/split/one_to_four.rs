@@ -24,10 +24,11 @@ fn second_half(h: u32) -> u32 {
     12 * face + 3 * next + 2
 }
 
-pub(super) fn faces(mesh: &HalfEdgeMesh, numbering: &Numbering, buffer: Vec<u32>) -> Faces {
-    let (corners, twins) = (mesh.faces().corners(), mesh.twins());
+/// The new faces, from the old ones, their twins, and the number of old vertices.
+pub(super) fn faces(old: &Faces, twins: &[u32], vertices: usize, numbering: &Numbering, buffer: Vec<u32>) -> Faces {
+    let corners = old.corners();
     let mut new = room(buffer, 4 * corners.len());
-    let on_edges = mesh.vertices() as u32;
+    let on_edges = vertices as u32;
     let run = |(index, new): (usize, &mut [u32])| {
         let old = 3 * RUN * index;
         let (corners, twins) = (&corners[old..old + new.len() / 4], &twins[old..old + new.len() / 4]);

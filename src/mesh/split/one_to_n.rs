@@ -5,10 +5,10 @@ use super::{Numbering, RUN, room, some};
 use crate::mesh::{Faces, HalfEdgeMesh};
 use rayon::prelude::*;
 
-pub(super) fn faces(mesh: &HalfEdgeMesh, numbering: &Numbering, buffer: Vec<u32>) -> Faces {
-    let (old, twins) = (mesh.faces(), mesh.twins());
+/// The new faces, from the old ones, their twins, and the number of old vertices.
+pub(super) fn faces(old: &Faces, twins: &[u32], vertices: usize, numbering: &Numbering, buffer: Vec<u32>) -> Faces {
     let mut new = room(buffer, 4 * twins.len());
-    let on_edges = mesh.vertices() as u32;
+    let on_edges = vertices as u32;
     let in_faces = on_edges + numbering.edges() as u32;
     let edge = |h: u32| on_edges + numbering.of_corner(h, twins[h as usize]);
     let run = |(index, new): (usize, &mut [u32])| {
