@@ -6,7 +6,7 @@
 //! with nothing beyond it: a vertex on a crease inside a mesh has such a half-disc on either side. At a *dart* it is the whole disc of
 //! n sectors, and a crease runs along spoke 0 and ends at the centre.
 
-use super::{Connectivity, Label, Lattice, PatchEdge, Site};
+use super::{Canonical, Connectivity, Label, Lattice, PatchEdge, Site};
 
 /// What kind of vertex the centre is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -142,6 +142,22 @@ impl Fan {
     /// The number of directions at a point, of which some may have no half-edge.
     fn round(&self, origin: Label) -> u32 {
         if self.lattice.is_centre(origin) { self.spokes() } else { self.lattice.steps().len() as u32 }
+    }
+}
+
+impl Canonical for Fan {
+    fn point(&self, sector: u32, i: i32, j: i32) -> Label {
+        Fan::point(self, sector, i, j)
+    }
+
+    fn birth(&self, label: Label) -> Site {
+        Fan::birth(self, label)
+    }
+
+    fn is_clear(&self, Label { sector, i, j }: Label, of_centre: i32, of_crease: i32) -> bool {
+        let along_first = sector == 0 && j < of_crease;
+        let along_last = sector + 1 >= self.sectors && i < of_crease || sector >= self.sectors;
+        i + j >= of_centre && !along_first && !along_last
     }
 }
 

@@ -24,7 +24,7 @@ pub use fan::{Fan, FanKind};
 pub use half_edge::{HalfEdgeMesh, MAX_CORNERS, NONE};
 pub use linked::{LinkedMesh, NoCut};
 pub use pairing::NotAMesh;
-pub use patch::{Label, Lattice, Patch, PatchEdge, Site};
+pub use patch::{Canonical, Label, Lattice, Patch, PatchEdge, Site};
 pub use repair::{Dropped, Repair, drop_isolated, split_non_manifold};
 pub use soup::{Crease, PolygonSoup};
 pub use split::{Birth, Numbering, Split};

@@ -163,6 +163,31 @@ pub enum Site {
     Corner(PatchEdge),
 }
 
+/// A mesh that is arithmetic on labels, around one vertex or face.
+pub trait Canonical: Connectivity<Edge = PatchEdge, Point = Label> {
+    /// The point at coordinates (i, j) of a sector, which may reach into the sectors beside it.
+    fn point(&self, sector: u32, i: i32, j: i32) -> Label;
+    /// Where the step of the scheme's split puts the point `label` of the refined mesh: vertices keep their place on the
+    /// lattice twice as fine, new points fill it.
+    fn birth(&self, label: Label) -> Site;
+    /// Whether a point is as far from the centre and from every crease as said, in edges.
+    fn is_clear(&self, label: Label, of_centre: i32, of_crease: i32) -> bool;
+}
+
+impl Canonical for Patch {
+    fn point(&self, sector: u32, i: i32, j: i32) -> Label {
+        Patch::point(self, sector, i, j)
+    }
+
+    fn birth(&self, label: Label) -> Site {
+        Patch::birth(self, label)
+    }
+
+    fn is_clear(&self, label: Label, of_centre: i32, _: i32) -> bool {
+        label.i + label.j >= of_centre
+    }
+}
+
 /// The canonical patch of a valence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Patch {

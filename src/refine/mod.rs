@@ -6,7 +6,6 @@
 mod births;
 mod compact;
 mod exact_weights;
-mod fan_rows;
 mod gather;
 mod growth;
 mod names;
@@ -16,11 +15,10 @@ mod steps;
 mod symmetry;
 
 pub use exact_weights::{Count, EnclosedWeights, ExactWeights};
-pub use fan_rows::FanRows;
 pub use gather::{Coordinate, Point};
 pub use growth::Counts;
 pub use names::OrbitNames;
-pub use regular::{PatchRows, RegularStencils};
+pub use regular::{CanonicalRows, FanRows, PatchRows, RegularStencils};
 pub use stencil::Use;
 pub use steps::{Buffers, Level, NotRefinable, Refined, Refiner, Route, ULPS, applied};
 pub use symmetry::check_symmetry;

@@ -4,7 +4,7 @@
 //! inside a sector, and applied by arithmetic; near the centre the rules themselves are walked.
 
 use super::{Obstacle, Refinement, Row};
-use crate::mesh::{Label, Lattice, Patch};
+use crate::mesh::{Canonical, Fan, Label, Lattice, Patch};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -61,27 +61,38 @@ impl RegularStencils {
     }
 }
 
-/// The rows of one patch, walked near the centre and by stencils elsewhere.
-pub struct PatchRows<'r, 's> {
-    /// The patch that the rows are on.
-    pub patch: Patch,
+/// The rows of one canonical mesh, walked near the centre and near a crease, and by stencils elsewhere.
+pub struct CanonicalRows<'r, 's, M> {
+    /// The mesh that the rows are on.
+    pub patch: M,
     refinement: &'r Refinement<'s, f64>,
     stencils: &'r RegularStencils,
     walked: RefCell<HashMap<Label, Rc<Row<Label, f64>>>>,
 }
 
-impl<'r, 's> PatchRows<'r, 's> {
-    /// The rows on a patch.
-    pub fn new(refinement: &'r Refinement<'s, f64>, stencils: &'r RegularStencils, patch: Patch) -> Self {
-        PatchRows { patch, refinement, stencils, walked: RefCell::new(HashMap::new()) }
+/// The rows of a patch.
+pub type PatchRows<'r, 's> = CanonicalRows<'r, 's, Patch>;
+
+/// The rows of a fan.
+pub type FanRows<'r, 's> = CanonicalRows<'r, 's, Fan>;
+
+impl<'r, 's, M: Canonical> CanonicalRows<'r, 's, M> {
+    /// The rows on a patch or fan.
+    pub fn new(refinement: &'r Refinement<'s, f64>, stencils: &'r RegularStencils, patch: M) -> Self {
+        CanonicalRows { patch, refinement, stencils, walked: RefCell::new(HashMap::new()) }
+    }
+
+    /// Whether a new point's row is regular: it keeps clear of the centre and of every crease.
+    fn is_regular(&self, label: Label) -> bool {
+        self.patch.is_clear(label, self.stencils.clear_of_centre(), self.stencils.clear_of_crease())
     }
 
     /// Calls `visit` with each old point that the new point `label` is made of, and its weight.
     ///
     /// # Errors
-    /// When a weight has no value.
+    /// When a weight has no value, or a rule reaches over the boundary.
     pub fn visit(&self, label: Label, mut visit: impl FnMut(Label, f64)) -> Result<(), Obstacle> {
-        if label.i + label.j >= self.stencils.clear_of_centre() {
+        if self.is_regular(label) {
             let (i, j) = (label.i.div_euclid(2), label.j.div_euclid(2));
             for ((di, dj), weight) in self.stencils.at(label.i, label.j) {
                 visit(self.patch.point(label.sector, i + di, j + dj), *weight);
@@ -97,7 +108,7 @@ impl<'r, 's> PatchRows<'r, 's> {
     /// The row of a new point, by walking the rules.
     ///
     /// # Errors
-    /// When a weight has no value.
+    /// As [`CanonicalRows::visit`].
     pub fn walked_row(&self, label: Label) -> Result<Rc<Row<Label, f64>>, Obstacle> {
         if let Some(row) = self.walked.borrow().get(&label) {
             return Ok(Rc::clone(row));
@@ -111,6 +122,7 @@ impl<'r, 's> PatchRows<'r, 's> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::FanKind;
     use crate::refine::lattice_of;
     use crate::scheme::catalogue;
 
@@ -135,6 +147,34 @@ mod tests {
                 for ((a, w), (b, v)) in by_stencil.iter().zip(walked.iter()) {
                     assert!(a == b && (w - v).abs() < 1e-15, "{} {label:?}", listed.id);
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn regular_rows_are_those_that_walking_gives() {
+        for id in ["loop", "loop-warren", "catmull-clark"] {
+            let scheme = catalogue::open(id).unwrap().unwrap();
+            let book = catalogue::boundary("cubic", &scheme.mesh).unwrap().unwrap();
+            let (refinement, lattice) = (Refinement::new(&scheme, Some(&book)), lattice_of(&scheme));
+            let stencils = RegularStencils::of(&refinement, lattice).unwrap();
+            for kind in [FanKind::Crease { faces: 1 }, FanKind::Corner { faces: 2 }, FanKind::Dart { faces: 5 }] {
+                let rows = FanRows::new(&refinement, &stencils, Fan::new(lattice, kind));
+                let mut compared = 0;
+                let labels = (0..rows.patch.sectors())
+                    .flat_map(|sector| (1..14).flat_map(move |i| (0..14).map(move |j| Label { sector, i, j })));
+                for label in labels.filter(|label| rows.is_regular(*label)) {
+                    let mut by_stencil = Vec::new();
+                    rows.visit(label, |old, weight| by_stencil.push((old, weight))).unwrap();
+                    by_stencil.sort_by_key(|(old, _)| *old);
+                    let walked = rows.walked_row(label).unwrap();
+                    assert_eq!(by_stencil.len(), walked.len(), "{id} {kind:?} {label:?}");
+                    for ((a, w), (b, v)) in by_stencil.iter().zip(walked.iter()) {
+                        assert!(a == b && (w - v).abs() < 1e-15, "{id} {kind:?} {label:?}");
+                    }
+                    compared += 1;
+                }
+                assert!(compared > 50, "{id} {kind:?}: {compared}");
             }
         }
     }

@@ -57,17 +57,17 @@ impl FanInfluence {
     /// # Errors
     /// When a weight has no value, or a rule reaches over the boundary.
     pub fn labels(&self, rows: &FanRows) -> Result<Vec<Label>, Obstacle> {
-        let mut outside = self.outside_at_the_finest(rows.fan);
+        let mut outside = self.outside_at_the_finest(rows.patch);
         for level in (1..=self.levels).rev() {
-            let mut fine = self.rim(rows.fan, level);
+            let mut fine = self.rim(rows.patch, level);
             fine.append(&mut outside);
             outside = sources(rows, &fine)?;
             outside.retain(|label| self.ring(*label) > 1 << (level - 1));
         }
-        outside.extend(inside(rows.fan, 0, 1));
+        outside.extend(inside(rows.patch, 0, 1));
         let mut closed = closure(rows, outside)?;
         // a weight may be 0 on one side and rounding noise on the other: keep what the mirror sees
-        closed.extend(closed.iter().map(|label| rows.fan.mirrored(*label)).collect::<Vec<_>>());
+        closed.extend(closed.iter().map(|label| rows.patch.mirrored(*label)).collect::<Vec<_>>());
         let mut labels: Vec<Label> = closure(rows, closed)?.into_iter().collect();
         let key = |label: &Label| (self.ring(*label), label.sector);
         labels.sort_by(|a, b| key(a).cmp(&key(b)).then(order(self.lattice, a.orbit(), b.orbit())));

@@ -100,7 +100,7 @@ impl<'a> BoundaryAnalyzer<'a> {
             rows.visit(label, |old, weight| row.push((old, weight)))?;
             Ok(row)
         };
-        let local = FanMatrix::of(rows.fan, labels, row)?;
+        let local = FanMatrix::of(rows.patch, labels, row)?;
         local.check_mirror()?;
         Ok(local)
     }
