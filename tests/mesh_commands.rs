@@ -162,6 +162,9 @@ fn tags_come_from_files_and_angles_and_go_on() {
     assert!(once.creases.len() == 2 && once.creases.iter().all(|crease| crease.sharpness == 1.5));
     folder.file("wrong.obj", text + "t crease 1/8 2\n");
     folder.refused("refine catmull-clark wrong.obj -o no.obj", &["no edge runs between vertices 0 and 7"]);
+    folder.file("long.obj", fs::read_to_string(folder.path("cube.obj")).unwrap() + "t crease 1/2 1000\n");
+    folder.refused("limit catmull-clark long.obj -o no.obj", &["of 1000 steps", "for ever (inf)"]);
+    folder.refused("verify catmull-clark --mesh long.obj --valence 3 --boundary-faces 2", &["for ever (inf)"]);
     folder.refused("refine doo-sabin tagged.obj -o no.obj", &["a dual split has none"]);
     folder.mesh("fan.obj", &shapes::fan(1, true));
     assert_eq!(folder.run("refine loop fan.obj -o corner.obj --boundary corner").0, 0);

@@ -185,7 +185,7 @@ impl<'a> Limits<'a> {
         let places = (0..count).into_par_iter().fold(BTreeSet::new, collect).reduce(BTreeSet::new, join);
         let masks =
             places.into_iter().map(|place| Ok((place, self.places.at(place)?))).collect::<Result<_, Obstacle>>()?;
-        let masked = Masked { at, lattice: self.lattice, masks };
+        let masked = Masked { at, lattice: self.lattice, masks, near: self.near };
         masked.surface(count, sectors)
     }
 }
@@ -195,6 +195,8 @@ struct Masked<'m> {
     at: &'m Level<f64>,
     lattice: Lattice,
     masks: BTreeMap<Place, PlaceMasks>,
+    /// Whether the surroundings are taken as they are, so that masks must lie on the faces around the vertex.
+    near: bool,
 }
 
 /// A limit point, and the normal or why there is none.
@@ -281,6 +283,9 @@ impl Masked<'_> {
     fn sum(&self, sector: &Sector, mask: &LabelledMask, origin: [f64; 3]) -> Result<[f64; 3], String> {
         let mut sum = [0.0; 3];
         for (label, weight) in mask {
+            if self.near && self.lattice.ring(label.i, label.j) > 1 {
+                return Err("its mask reaches beyond the faces around it, although the rules are compact".to_string());
+            }
             let point = point_at(&self.at.mesh, self.lattice, sector.place, &sector.spokes, *label);
             let position = self.at.positions[point.ok_or("its mask reaches beyond the face")? as usize];
             for axis in 0..3 {

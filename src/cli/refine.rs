@@ -117,7 +117,7 @@ impl Job {
         let book = boundary_of(scheme)?;
         let refiner = Refiner::new(scheme, book.as_ref()).map_err(|wrong| refused(scheme, wrong))?;
         refiner.fits(&loaded.mesh, &loaded.tags).map_err(|wrong| refused(scheme, wrong))?;
-        check_size::<T>(&refiner, &loaded.mesh, levels, to_limit)?;
+        check_size::<T>(&refiner, &loaded.mesh, levels, to_limit, None)?;
         let start = Instant::now();
         let positions = loaded.positions.into_iter().map(|p| p.map(T::from_f64)).collect();
         let mut at = Level { mesh: loaded.mesh, positions, tags: loaded.tags };
@@ -169,7 +169,7 @@ impl Job {
         let positions = at.positions.into_iter().map(|p| p.map(T::to_f64)).collect();
         let at = Level { mesh: at.mesh, positions, tags: at.tags };
         let more = limits.steps_before(&at);
-        check_size::<f64>(refiner, &at.mesh, more, true)?;
+        check_size::<f64>(refiner, &at.mesh, more, true, Some(BEFORE_LIMIT))?;
         bar.inc_length(more as u64);
         let surface = limits.of(&at, &|| bar.inc(1)).map_err(|wrong| no_limit(scheme, wrong))?;
         bar.finish_and_clear();
@@ -192,37 +192,43 @@ pub(crate) fn valences_of(mesh: &HalfEdgeMesh) -> Vec<usize> {
     valences.into_iter().take(CHECKED).collect()
 }
 
-/// Checks, before starting, that indices and memory suffice for some steps.
-fn check_size<T: Coordinate>(
+/// Checks, before starting, that indices and memory suffice for some steps; `why` they are made, and what to do otherwise, is told
+/// where it isn't `--levels`.
+pub(crate) fn check_size<T: Coordinate>(
     refiner: &Refiner,
     mesh: &HalfEdgeMesh,
     levels: usize,
     to_limit: bool,
+    why: Option<&str>,
 ) -> Result<(), Failure> {
     let mut counts = Counts::of(mesh);
     let limit_of = |counts: Counts| if to_limit { counts.bytes_of_mesh::<f64>() + counts.bytes_of_limit() } else { 0 };
     let mut most = limit_of(counts);
-    let (mut needed, mut fits) = (most, 0);
+    let (mut needed, mut fits, mut made) = (most, 0, 0);
     let available = memory::available();
-    for level in 1..=levels {
+    while made < levels && counts.can_be_numbered() {
         most = most.max(counts.bytes_of_step::<T>(refiner.split()));
         counts = counts.after(refiner.split());
+        made += 1;
         // of the last level a mesh is made, to be told about or pushed to the limit
         needed = most.max(counts.bytes_of_mesh::<T>()).max(limit_of(counts));
         if counts.can_be_numbered() && available.is_none_or(|available| needed <= available) {
-            fits = level;
+            fits = made;
         }
     }
-    let help = format!("--levels {fits} fits");
+    let help = why.map_or(format!("--levels {fits} fits"), str::to_string);
     if !counts.can_be_numbered() {
-        let limit = eigenring::mesh::MAX_CORNERS;
-        let message =
-            format!("{levels} steps make {} faces with {} corners, more than {limit}", counts.faces, counts.corners);
+        let (limit, Counts { faces, corners, .. }) = (eigenring::mesh::MAX_CORNERS, counts);
+        let message = format!("{made} of {levels} steps make {faces} faces with {corners} corners, more than {limit}");
         return Err(failure(format!("{message}\n  help: {help}")));
     }
     let what = format!("a mesh of {} faces after {levels} steps", counts.faces);
     memory::check(needed, &what, &help)
 }
+
+/// What is to be done where a mesh must be refined too often before its limit is taken.
+pub(crate) const BEFORE_LIMIT: &str = "before limits are taken, creases that end are refined away, and irregular vertices apart: creases \
+    of a few steps, or for ever (inf), and a mesh of fewer faces need less";
 
 /// A bar on a terminal, when there will be much to do.
 fn progress(levels: usize, faces: u128) -> ProgressBar {

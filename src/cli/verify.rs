@@ -3,14 +3,14 @@
 use super::analyze::explain;
 use super::mesh_file::Reading;
 use super::open::{boundary_of, open_checked};
-use super::refine::{no_limit, refused, valences_of};
+use super::refine::{BEFORE_LIMIT, check_size, no_limit, refused, valences_of};
 use super::valences::{Faces, Valences};
-use super::{Failure, failure, memory, print};
+use super::{Failure, failure, print};
 use clap::{Args, ValueEnum};
 use eigenring::analysis::places::Place;
 use eigenring::analysis::verify::{Check, Levels, NORMAL, POSITION, Verifier};
 use eigenring::mesh::{FanKind, HalfEdgeMesh, PolygonSoup, Split, Tags, shapes};
-use eigenring::refine::{Counts, Level, Refiner};
+use eigenring::refine::{Level, Refiner};
 use eigenring::scheme::Scheme;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Write;
@@ -132,9 +132,9 @@ impl Verify {
         let mut found = Vec::new();
         for (name, level) in meshes {
             let steps = usize::from(self.levels);
-            let counts = (0..=steps + 1).fold(Counts::of(&level.mesh), |counts, _| counts.after(refiner.split()));
-            let what = format!("comparing limits of {name} over {steps} steps");
-            memory::check(counts.bytes_of_mesh::<f64>(), &what, "fewer --levels need less")?;
+            let before = verifier.steps_before(&level);
+            let why = if before > 1 { Some(BEFORE_LIMIT) } else { None };
+            check_size::<f64>(refiner, &level.mesh, steps + before, true, why)?;
             let levels = verifier.levels(&level, steps).map_err(|wrong| no_limit(scheme, wrong))?;
             found.push(OnMesh { name, steps, levels });
         }

@@ -26,9 +26,13 @@ impl Counts {
         Counts { vertices, edges, faces, corners }
     }
 
-    /// Those after a step; for a dual split of a mesh with a boundary, which recedes, an upper bound.
+    /// Those after a step, as far as 32 bits number them: beyond, counts stay. For a dual split of a mesh with a boundary, which
+    /// recedes, an upper bound.
     #[must_use]
     pub fn after(self, split: Split) -> Counts {
+        if !self.can_be_numbered() {
+            return self;
+        }
         let Counts { vertices, edges, faces, corners } = self;
         match split {
             Split::OneToFour => Counts {

@@ -83,6 +83,11 @@ impl<'a> Verifier<'a> {
         self.limits.masks(place)
     }
 
+    /// The steps that a level is refined by before its limits are taken.
+    pub fn steps_before(&self, level: &Level<f64>) -> usize {
+        self.limits.steps_before(level)
+    }
+
     /// Checks masks at a place on some random neighbourhoods; the worst of them is told.
     ///
     /// # Errors
