@@ -345,3 +345,43 @@ fn a_missing_tangent_plane_is_told() {
         }
     }
 }
+
+/// Two tubes that share a rim share the limits there, to the bit: the crease's mask knows its own points only.
+#[test]
+fn limits_on_a_shared_boundary_are_the_same() {
+    for (id, triangles) in [("loop", true), ("catmull-clark", false)] {
+        let (scheme, book) = open(id);
+        let below = shaken(shapes::tube(2, 7, triangles));
+        let mut above = shapes::tube(3, 7, triangles);
+        // the rim, told in another order: turned by two
+        for (index, position) in above.positions.iter_mut().enumerate() {
+            *position = if index < 7 { below.positions[14 + (index + 2) % 7] } else { position.map(|x| 1.5 * x + 2.0) };
+        }
+        let (a, b) = (limit(&scheme, &book, &level(&below)), limit(&scheme, &book, &level(&above)));
+        for index in 0..7 {
+            assert_eq!(a.positions[14 + (index + 2) % 7], b.positions[index], "{id}: {index}");
+        }
+    }
+}
+
+/// Meshes as small or as large as numbers go have normals, too.
+#[test]
+fn normals_do_not_depend_on_the_size_of_the_mesh() {
+    let (scheme, book) = open("loop");
+    let shape = shaken(shapes::tetrahedron());
+    let one = limit(&scheme, &book, &level(&shape));
+    for size in [2.0_f64.powi(-660), 2.0_f64.powi(660)] {
+        let scaled =
+            PolygonSoup { positions: shape.positions.iter().map(|p| p.map(|x| x * size)).collect(), ..shape.clone() };
+        assert_eq!(limit(&scheme, &book, &level(&scaled)).normals, one.normals);
+    }
+}
+
+/// A place beyond the analysis is told with its vertex.
+#[test]
+fn a_vertex_without_masks_is_named() {
+    let (scheme, book) = open("loop");
+    let refiner = Refiner::new(&scheme, Some(&book)).unwrap();
+    let wrong = Limits::new(&refiner).unwrap().of(&level(&shapes::fan(300, true)), &|| ()).unwrap_err();
+    assert!(wrong.to_string().starts_with("vertex 0 has no limit point: the number of faces at a crease"), "{wrong}");
+}

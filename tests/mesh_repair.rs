@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use eigenring::mesh::{
-    Crease, Dropped, Faces, HalfEdgeMesh, NONE, NotAMesh, PolygonSoup, Repair, Tags, drop_isolated, edge_between,
-    first_corner, split_non_manifold,
+    Connectivity, Crease, Dropped, Faces, HalfEdgeMesh, NONE, NotAMesh, PolygonSoup, Repair, Tags, drop_isolated,
+    edge_between, first_corner, split_non_manifold,
 };
 use proptest::prelude::*;
 use std::collections::{HashMap, HashSet};
@@ -191,9 +191,15 @@ proptest! {
         for edge in mesh.edges() {
             let ends = [mesh.faces().corners()[edge as usize], mesh.faces().corners()[mesh.faces().next(edge) as usize]];
             let [a, b] = ends.map(|end| origin[end as usize] as u32);
-            let told = tangle.creases.iter().rev().find(|crease| crease.ends == [a, b] || crease.ends == [b, a]);
+            let on = |creases: &[Crease], [a, b]: [u32; 2]| {
+                let last = creases.iter().rev().find(|crease| crease.ends == [a, b] || crease.ends == [b, a]);
+                last.map_or(0.0, |crease| crease.sharpness)
+            };
+            let told = on(&tangle.creases, [a, b]);
+            prop_assert_eq!(on(&cut.creases, ends), told);
+            // the boundary is sharp without a tag
             let found = tags.sharpness(first_corner(&mesh, edge_between(&mesh, ends).unwrap()));
-            prop_assert_eq!(found, told.map_or(0.0, |crease| crease.sharpness));
+            prop_assert_eq!(found, if mesh.is_sharp(edge) { 0.0 } else { told });
         }
         for (vertex, from) in origin.iter().enumerate() {
             prop_assert_eq!(tags.corners().contains(&(vertex as u32)), tangle.corners.contains(&(*from as u32)));

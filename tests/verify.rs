@@ -123,3 +123,19 @@ fn limits_of_meshes_are_compared() {
         assert!(levels.gaps.len() == 4 && (3.0..5.0).contains(&ratio), "{levels:?}");
     }
 }
+
+/// Tangents of different length: 0.5 and 0.3 at a boundary of two faces, with mu near the smaller one.
+#[test]
+fn tangents_of_very_different_length_are_told_apart() {
+    let text = "name = \"Mine\"\nmesh = \"triangles\"\nsplit = \"1-to-4\"\n[vertex]\ncentre = \"1 - n/16\"\nring = \"1/16\"\n\
+        [edge]\nends = \"3/10\"\nopposite = \"1/5\"\n";
+    let scheme = Scheme::parse("mine", "mine.toml", text).unwrap();
+    let book = catalogue::boundary("cubic", "triangles").unwrap().unwrap();
+    let verifier = Verifier::new(&Refiner::new(&scheme, Some(&book)).unwrap()).unwrap();
+    let place = Place::Fan(FanKind::Crease { faces: 2 });
+    let masks = verifier.masks(place).unwrap();
+    for seed in 1..=6 {
+        let check = verifier.check(place, &masks, 1, seed).unwrap();
+        assert!(check.agrees && check.normal.as_ref().unwrap().is_seen(), "{check:?}");
+    }
+}

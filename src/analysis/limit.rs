@@ -110,7 +110,7 @@ impl<'a> Limits<'a> {
         let dual = self.refiner.split() == Split::Dual;
         let sizes = usize::from(!dual && level.mesh.faces().same_size() != Some(self.lattice.face_corners() as u32));
         let apart = if self.near || self.all_apart(level) { 0 } else { self.reach.ilog2() as usize + 1 };
-        ending.max(sizes) + apart + usize::from(dual)
+        ending.max(sizes).saturating_add(apart + usize::from(dual))
     }
 
     /// Whether every vertex, and whatever is special, is alone as far as the masks reach.
@@ -183,8 +183,14 @@ impl<'a> Limits<'a> {
             a
         };
         let places = (0..count).into_par_iter().fold(BTreeSet::new, collect).reduce(BTreeSet::new, join);
-        let masks =
-            places.into_iter().map(|place| Ok((place, self.places.at(place)?))).collect::<Result<_, Obstacle>>()?;
+        let masks = |place| match self.places.at(place) {
+            // beyond a limit of the analysis: told with the vertex
+            Err(Obstacle::Limit(why)) => {
+                Ok((place, PlaceMasks { limit: Err(why.clone()), tangents: Err(why), rates: None }))
+            }
+            masks => Ok((place, masks?)),
+        };
+        let masks = places.into_iter().map(masks).collect::<Result<_, Obstacle>>()?;
         let masked = Masked { at, lattice: self.lattice, masks, near: self.near };
         masked.surface(count, sectors)
     }
@@ -274,25 +280,27 @@ impl Masked<'_> {
     fn normal(&self, sector: &Sector) -> Result<[f64; 3], String> {
         let tangents = self.masks[&sector.place].tangents.as_ref().map_err(Clone::clone)?;
         let origin = self.at.positions[self.at.mesh.origin(sector.spokes[0]) as usize];
-        let [a, b] = [self.sum(sector, &tangents[0], origin)?, self.sum(sector, &tangents[1], origin)?];
-        let scale = (dot(a, a) * dot(b, b)).sqrt();
-        unit(cross(a, b), 1e-12 * scale).ok_or_else(|| "its tangents are parallel or zero for these points".to_string())
+        let [a, b] = [&tangents[0], &tangents[1]].map(|mask| self.sum(sector, mask, origin).map(scaled));
+        let (a, b) = (a?, b?);
+        unit(cross(a, b), 1e-12).ok_or_else(|| "its tangents are parallel or zero for these points".to_string())
     }
 
     /// A mask applied to the points around a sector's vertex, less an origin.
     fn sum(&self, sector: &Sector, mask: &LabelledMask, origin: [f64; 3]) -> Result<[f64; 3], String> {
-        let mut sum = [0.0; 3];
+        // added up in order of size, as rows are: a boundary's limits don't know which mesh it belongs to
+        let mut products: [Vec<f64>; 3] = Default::default();
         for (label, weight) in mask {
             if self.near && self.lattice.ring(label.i, label.j) > 1 {
                 return Err("its mask reaches beyond the faces around it, although the rules are compact".to_string());
             }
             let point = point_at(&self.at.mesh, self.lattice, sector.place, &sector.spokes, *label);
             let position = self.at.positions[point.ok_or("its mask reaches beyond the face")? as usize];
-            for axis in 0..3 {
-                sum[axis] += weight * (position[axis] - origin[axis]);
-            }
+            products.iter_mut().enumerate().for_each(|(axis, own)| own.push(weight * (position[axis] - origin[axis])));
         }
-        Ok(sum)
+        Ok(products.map(|mut own| {
+            own.sort_unstable_by(f64::total_cmp);
+            own.iter().sum()
+        }))
     }
 }
 
@@ -356,6 +364,12 @@ pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// A vector over its largest entry: what follows neither underflows nor overflows.
+pub(super) fn scaled(v: [f64; 3]) -> [f64; 3] {
+    let largest = v.iter().fold(0.0_f64, |top, x| top.max(x.abs()));
+    if largest > 0.0 { v.map(|x| x / largest) } else { v }
 }
 
 /// The vector over its length, where that is larger than a bound.

@@ -4,8 +4,7 @@ use super::{Failure, failure, say};
 use clap::{Args, ValueEnum};
 use eigenring::mesh::io::{Format, Output, read, write};
 use eigenring::mesh::{
-    Connectivity, Crease, Faces, HalfEdgeMesh, NotAMesh, PolygonSoup, Tags, drop_isolated, first_corner,
-    split_non_manifold,
+    Connectivity, Crease, Faces, HalfEdgeMesh, NotAMesh, PolygonSoup, Tags, drop_isolated, split_non_manifold,
 };
 use eigenring::report::write_in_pieces;
 use std::collections::BTreeMap;
@@ -164,7 +163,7 @@ fn sharp_edges(mesh: &HalfEdgeMesh, positions: &[[f64; 3]], degrees: f64) -> Vec
         let dot: f64 = (0..3).map(|axis| a[axis] * b[axis]).sum();
         libm::acos(dot.clamp(-1.0, 1.0)).to_degrees()
     };
-    let inside = mesh.edges().filter(|h| first_corner(mesh, *h) == *h && !mesh.is_sharp(*h));
+    let inside = mesh.edges().filter(|h| !mesh.is_sharp(*h));
     let sharp = inside.filter(|h| angle(*h) >= degrees);
     sharp.map(|h| Crease { ends: [mesh.origin(h), mesh.target(h)], sharpness: f64::INFINITY }).collect()
 }

@@ -2,14 +2,14 @@
 
 use super::analyze::explain;
 use super::mesh_file::{Loaded, Reading, check_destination, creases_of, save, statistics, statistics_of_faces};
-use super::open::{boundary_of, open_checked};
+use super::open::{boundary_of, open};
 use super::{Failure, failure, memory, say};
 use clap::{Args, ValueEnum};
 use eigenring::analysis::limit::{LimitSurface, Limits, NoLimit};
 use eigenring::analysis::local::MAX_VALENCE;
 use eigenring::mesh::io::{Coordinates, Output};
 use eigenring::mesh::{Connectivity, HalfEdgeMesh, Split};
-use eigenring::refine::{Buffers, Coordinate, Counts, Level, NotRefinable, Obstacle, Refined, Refiner, Route};
+use eigenring::refine::{Coordinate, Counts, Level, NotRefinable, Obstacle, Refined, Refiner, Route};
 use eigenring::scheme::Scheme;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeSet;
@@ -102,8 +102,8 @@ impl Job {
         let threads = self.threads.map_or(0, usize::from);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.map_err(|error| failure(format!("{threads} threads can't be started: {error}")))?;
-        let valences = valences_of(&loaded.mesh);
-        let (scheme, _) = open_checked(&self.scheme, &self.set, &valences)?;
+        let scheme = open(&self.scheme, &self.set)?;
+        eigenring::refine::check(&scheme, &valences_of(&loaded.mesh, &scheme))?;
         pool.install(|| match self.precision {
             Precision::Single => self.work::<f32>(&scheme, loaded, levels, to_limit),
             Precision::Double => self.work::<f64>(&scheme, loaded, levels, to_limit),
@@ -126,11 +126,8 @@ impl Job {
         let receding = refiner.split() == Split::Dual && !at.mesh.is_closed();
         let whole = to_limit || receding || !at.tags.is_empty();
         let whole_steps = if whole { levels } else { levels.saturating_sub(1) };
-        let mut buffers = Buffers::default();
         for _ in 0..whole_steps {
-            let next = refiner.step_in(&at, Route::Fast, &mut buffers).map_err(|wrong| refused(scheme, wrong))?;
-            buffers = Buffers::default();
-            at = next;
+            at = refiner.step(&at, Route::Fast).map_err(|wrong| refused(scheme, wrong))?;
             bar.inc(1);
         }
         if to_limit {
@@ -183,11 +180,12 @@ impl Job {
     }
 }
 
-/// The valences, and sizes of faces, of a mesh that rules are told around: the smallest so many.
-pub(crate) fn valences_of(mesh: &HalfEdgeMesh) -> Vec<usize> {
+/// The valences of a mesh that a scheme's rules are told around, and the sizes of its faces where they are, too: the smallest so many.
+pub(crate) fn valences_of(mesh: &HalfEdgeMesh, scheme: &Scheme) -> Vec<usize> {
     const CHECKED: usize = 40;
     let inside = mesh.vertex_edges().iter().filter(|h| mesh.boundary_at(**h).is_none());
-    let valences = inside.map(|h| mesh.valence(*h)).chain(mesh.faces().iter().map(<[u32]>::len));
+    let sizes = mesh.faces().iter().filter(|_| scheme.mesh != "triangles").map(<[u32]>::len);
+    let valences = inside.map(|h| mesh.valence(*h)).chain(sizes);
     let valences: BTreeSet<usize> = valences.filter(|n| (3..=MAX_VALENCE).contains(n)).collect();
     valences.into_iter().take(CHECKED).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::analyze::explain;
 use super::mesh_file::Reading;
-use super::open::{boundary_of, open_checked};
+use super::open::{boundary_of, open};
 use super::refine::{BEFORE_LIMIT, check_size, no_limit, refused, valences_of};
 use super::valences::{Faces, Valences};
 use super::{Failure, failure, print};
@@ -71,12 +71,13 @@ struct OnMesh {
 
 impl Verify {
     pub(crate) fn run(self) -> Result<(), Failure> {
+        let scheme = open(&self.scheme, &self.set)?;
         let meshes = self.meshes()?;
         let mut valences = self.valence.as_ref().map_or_else(|| (3..=12).collect(), |list| list.0.clone());
         if let (None, Some((_, level))) = (&self.valence, meshes.first().filter(|_| self.mesh.is_some())) {
-            valences = valences_of(&level.mesh);
+            valences = valences_of(&level.mesh, &scheme);
         }
-        let (scheme, _) = open_checked(&self.scheme, &self.set, &valences)?;
+        eigenring::refine::check(&scheme, &valences)?;
         let book = boundary_of(&scheme)?;
         let refiner = Refiner::new(&scheme, book.as_ref()).map_err(|wrong| refused(&scheme, wrong))?;
         let verifier = Verifier::new(&refiner).map_err(|obstacle| explain(&scheme, obstacle))?;
@@ -134,7 +135,7 @@ impl Verify {
             let steps = usize::from(self.levels);
             let before = verifier.steps_before(&level);
             let why = if before > 1 { Some(BEFORE_LIMIT) } else { None };
-            check_size::<f64>(refiner, &level.mesh, steps + before, true, why)?;
+            check_size::<f64>(refiner, &level.mesh, before.saturating_add(steps), true, why)?;
             let levels = verifier.levels(&level, steps).map_err(|wrong| no_limit(scheme, wrong))?;
             found.push(OnMesh { name, steps, levels });
         }
@@ -239,7 +240,8 @@ fn text(scheme: &Scheme, asked: &Verify, checks: &[Check], meshes: &[OnMesh]) ->
 }
 
 fn line(check: &Check) -> String {
-    let normal = check.normal.as_ref().map_or("-".to_string(), |normal| bound(normal.angle));
+    let seen = check.normal.as_ref().ok().filter(|normal| normal.is_seen());
+    let normal = seen.map_or("-".to_string(), |normal| bound(normal.angle));
     let tangent = if check.rates.is_some() { bound(check.tangent) } else { "-".to_string() };
     // of the two factors the larger first; rounding of a double one is not shown
     let pair = |[a, b]: [f64; 2]| {
@@ -254,6 +256,7 @@ fn line(check: &Check) -> String {
         (true, Ok(normal)) if normal.bound.is_infinite() => {
             "agrees; a Jordan block: normals converge like 1/m".to_string()
         }
+        (true, Ok(normal)) if !normal.is_seen() => "agrees; normals converge too slowly to be seen".to_string(),
         (true, Ok(normal)) if normal.bound > NORMAL => format!("agrees (normals to {:.0e})", normal.bound),
         (true, Ok(_)) => "agrees".to_string(),
         (true, Err(why)) => format!("limit point agrees; {why}"),

@@ -52,11 +52,6 @@ impl HalfEdgeMesh {
         HalfEdgeMesh { faces, twin, leaving }
     }
 
-    /// The memory of a mesh that is done with: corners, twins, and the half-edges that leave the vertices.
-    pub fn into_buffers(self) -> [Vec<u32>; 3] {
-        [self.faces.into_corners(), self.twin, self.leaving]
-    }
-
     /// Faces and twins alone.
     pub(super) fn into_faces_and_twins(self) -> (Faces, Vec<u32>) {
         (self.faces, self.twin)

@@ -39,7 +39,8 @@ impl std::error::Error for BadTag {}
 
 impl Tags {
     /// The tags of a mesh, from edges given by their ends and from vertices. Of an edge told twice the last word counts;
-    /// a sharpness of 0 or less is none.
+    /// a sharpness of 0 or less is none,
+    /// and a boundary edge is sharp with or without a tag.
     ///
     /// # Errors
     /// A tag that names no edge or vertex of the mesh.
@@ -47,7 +48,9 @@ impl Tags {
         let mut tags = Tags::default();
         for crease in creases {
             let edge = edge_between(mesh, crease.ends).ok_or(BadTag::NoEdge(crease.ends))?;
-            tags.sharp.push((first_corner(mesh, edge), crease.sharpness));
+            if !mesh.is_sharp(edge) {
+                tags.sharp.push((first_corner(mesh, edge), crease.sharpness));
+            }
         }
         if let Some(vertex) = corners.iter().find(|vertex| **vertex as usize >= mesh.vertices()) {
             return Err(BadTag::NoVertex(*vertex));
@@ -104,17 +107,6 @@ impl Tags {
     /// The sharpness of an edge inside the mesh, told by its first corner; 0 where it is no crease.
     pub fn sharpness(&self, first_corner: u32) -> f64 {
         self.sharp.binary_search_by_key(&first_corner, |(edge, _)| *edge).map_or(0.0, |at| self.sharp[at].1)
-    }
-
-    /// For each vertex whether it is a corner or a crease ends there.
-    pub fn marked(&self, mesh: &HalfEdgeMesh) -> Vec<bool> {
-        let mut marked = vec![false; mesh.vertices()];
-        for (edge, _) in &self.sharp {
-            marked[mesh.origin(*edge) as usize] = true;
-            marked[mesh.target(*edge) as usize] = true;
-        }
-        self.corners.iter().for_each(|vertex| marked[*vertex as usize] = true);
-        marked
     }
 }
 
@@ -195,7 +187,9 @@ mod tests {
         let edge = edge_between(&mesh, [0, 2]).unwrap();
         let sharp = |beyond: f64| Tagged { mesh: &mesh, tags: &tags, beyond }.is_sharp(edge);
         assert!(sharp(0.0) && sharp(1.0) && !sharp(1.5));
-        assert_eq!((tags.most_steps(), tags.marked(&mesh)), (1.5, vec![true, true, true, false]));
+        assert_eq!(tags.most_steps(), 1.5);
+        let outer = Crease { ends: [0, 1], sharpness: 3.0 };
+        assert!(Tags::new(&mesh, &[outer], &[]).unwrap().is_empty(), "the boundary needs no tag");
         let cornered = tags.with_boundary_corners(&mesh);
         assert_eq!(cornered.corners(), [1, 3]);
         assert_eq!(Tags::new(&mesh, &[Crease { ends: [1, 3], sharpness: 1.0 }], &[]), Err(BadTag::NoEdge([1, 3])));

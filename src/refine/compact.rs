@@ -7,8 +7,9 @@
 use super::gather::{AtEdge, AtVertex, Coordinate};
 use super::{Refinement, Terms};
 use crate::scheme::vocabulary::{Arrival, Move, RuleKind};
+use std::collections::BTreeSet;
 
-/// Valences and sizes of faces up to this have a place in the tables.
+/// Valences, and sizes of faces under dual splits, up to this have a place in the tables; other faces whatever their size.
 const TABLE: usize = 64;
 
 /// The weights of a scheme's interior rules, by valence.
@@ -30,8 +31,8 @@ const BEFORE: Class = (&[Move::Prev], Arrival::Origin);
 const NEW_FACE: Class = (&[], Arrival::NewFace);
 
 impl<T: Coordinate> Compact<T> {
-    /// The tables, where every rule of the scheme inside the mesh is compact.
-    pub(super) fn of(refinement: &Refinement<f64>) -> Option<Compact<T>> {
+    /// The tables, where every rule of the scheme inside the mesh is compact; that of faces for these sizes.
+    pub(super) fn of(refinement: &Refinement<f64>, sizes: &BTreeSet<usize>) -> Option<Compact<T>> {
         let rules = &refinement.scheme().book.rules;
         let has = |kind| rules.contains_key(&kind);
         if has(RuleKind::EdgeFromIrregularEnd) {
@@ -39,7 +40,9 @@ impl<T: Coordinate> Compact<T> {
         }
         let edge = if has(RuleKind::Edge) { at_edge(refinement)? } else { AtEdge::default() };
         let vertex: Vec<_> = (0..=TABLE).map(|n| at_vertex(refinement, n)).collect();
-        let face: Vec<_> = (0..=TABLE).map(|n| at_face(refinement, n)).collect();
+        let largest = sizes.last().copied().unwrap_or(4).max(4);
+        let wanted = |n: &usize| *n == 4 || sizes.contains(n);
+        let face: Vec<_> = (0..=largest).map(|n| Some(n).filter(wanted).and_then(|n| at_face(refinement, n))).collect();
         let corner: Vec<_> = (0..=TABLE).map(|n| at_corner(refinement, n)).collect();
         let regular = refinement.scheme().regular_valence();
         let missing = (has(RuleKind::Vertex) && vertex[regular].is_none())

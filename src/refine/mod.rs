@@ -20,7 +20,7 @@ pub use growth::Counts;
 pub use names::OrbitNames;
 pub use regular::{CanonicalRows, FanRows, PatchRows, RegularStencils};
 pub use stencil::Use;
-pub use steps::{Buffers, Level, NotRefinable, Refined, Refiner, Route, ULPS, applied};
+pub use steps::{Buffers, Level, NotRefinable, Refined, Refiner, Route, applied, most_ulps};
 pub use symmetry::check_symmetry;
 
 use crate::fault::{Fault, Faults};

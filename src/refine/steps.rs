@@ -2,7 +2,7 @@
 //!
 //! By rows of weights, point by point, on any mesh that the scheme's split allows; where rules are compact, by gathering. Both
 //! ways give the same mesh with its points in the same order, and positions that differ by rounding only:
-//! by at most [`ULPS`] units in the last place of sum |w p|.
+//! within [`most_ulps`].
 
 use super::compact::Compact;
 use super::gather::{self, Coordinate, Point};
@@ -10,11 +10,14 @@ use super::{Obstacle, Refinement, Row};
 use crate::mesh::{Connectivity, Faces, HalfEdgeMesh, MAX_CORNERS, NONE, NotAMesh, Numbering, Split, Tags};
 use crate::scheme::{RuleBook, Scheme};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::fmt;
 
-/// How far positions of the two routes may be apart, in units in the last place of the sum of |w p| over a point's row:
-/// half a unit for each weight, product and sum on the longest path, and as much again for points that the same step has made.
-pub const ULPS: f64 = 16.0;
+/// How far positions of the two routes may be apart, in units in the last place of the sum of |w p| over a point's row of this many
+/// weights: half a unit for each sum, and some for the products and for points that the same step has made.
+pub fn most_ulps(weights: usize) -> f64 {
+    8.0 + weights as f64 / 2.0
+}
 
 /// A mesh with its points and tags.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +63,8 @@ pub enum NotRefinable {
     },
     /// Creases or corners under a split that has none.
     Tags,
+    /// A vertex inside the mesh with two edges, of which a dual split would make a face of two corners.
+    TwoEdges(usize),
     /// A split that there is no topology for.
     Split(String),
     /// The new mesh is too large.
@@ -76,6 +81,9 @@ impl fmt::Display for NotRefinable {
                 write!(f, "face {face} has {corners} corners; the scheme refines {kind} only")
             }
             NotRefinable::Tags => f.write_str("the mesh has creases or corners; a dual split has none"),
+            NotRefinable::TwoEdges(vertex) => {
+                write!(f, "vertex {vertex} has two edges; a dual split would make a face of two corners of it")
+            }
             NotRefinable::Split(name) => write!(f, "the split {name} can't be applied to meshes"),
             NotRefinable::Mesh(wrong) => write!(f, "{wrong}"),
             NotRefinable::Obstacle(obstacle) => write!(f, "{obstacle}"),
@@ -108,12 +116,6 @@ pub struct Buffers<T> {
 }
 
 impl<T: Coordinate> Buffers<T> {
-    /// Takes the memory of a level that is done with.
-    pub fn take(&mut self, level: Level<T>) {
-        [self.corners, self.twin, self.leaving] = level.mesh.into_buffers();
-        self.positions = level.positions;
-    }
-
     /// Takes the memory of a last step that is done with.
     pub fn take_refined(&mut self, refined: Refined<T>) {
         self.corners = refined.faces.into_corners();
@@ -156,7 +158,7 @@ impl<'a> Refiner<'a> {
 
     /// Whether every rule of the scheme inside the mesh is compact, so that points can be gathered.
     pub fn is_compact(&self) -> bool {
-        Compact::<f64>::of(&Refinement::new(self.scheme, self.boundary)).is_some()
+        Compact::<f64>::of(&Refinement::new(self.scheme, self.boundary), &BTreeSet::new()).is_some()
     }
 
     /// Checks that the scheme's split can be applied to a mesh.
@@ -166,6 +168,12 @@ impl<'a> Refiner<'a> {
     pub fn fits(&self, mesh: &HalfEdgeMesh, tags: &Tags) -> Result<(), NotRefinable> {
         if self.split == Split::Dual && !tags.is_empty() {
             return Err(NotRefinable::Tags);
+        }
+        let two_edges = |h: &u32| mesh.valence(*h) == 2 && mesh.boundary_at(*h).is_none();
+        if self.split == Split::Dual
+            && let Some(vertex) = mesh.vertex_edges().iter().position(two_edges)
+        {
+            return Err(NotRefinable::TwoEdges(vertex));
         }
         let needed = match self.scheme.mesh.as_str() {
             "triangles" => 3,
@@ -256,8 +264,9 @@ impl<'a> Refiner<'a> {
             return Err(NotAMesh::TooLarge.into());
         }
         let mut positions = room(std::mem::take(&mut buffers.positions), count);
-        let compact =
-            (route == Route::Fast).then(|| Compact::of(&Refinement::new(self.scheme, self.boundary))).flatten();
+        let compact = (route == Route::Fast)
+            .then(|| Compact::of(&Refinement::new(self.scheme, self.boundary), &sizes(&level.mesh)))
+            .flatten();
         match compact {
             Some(compact) => {
                 let left = self.gather(level, numbering, &compact, &mut positions);
@@ -343,6 +352,8 @@ impl<'a> Refiner<'a> {
         let mut left = gather::vertex_points(mesh, old, in_faces, &compact.vertex, at_vertices);
         self.leave_special(level, numbering, &mut left);
         self.leave_large_faces(mesh, numbering, compact, &mut left);
+        left.sort_unstable();
+        left.dedup();
         left
     }
 
@@ -357,7 +368,7 @@ impl<'a> Refiner<'a> {
         left.extend(level.tags.corners());
     }
 
-    /// The points of faces beyond the table, and those of their edges and vertices, which may be made of them.
+    /// The points of faces that have no weight in the table, and those of their edges and vertices, which may be made of them.
     fn leave_large_faces<T>(
         &self,
         mesh: &HalfEdgeMesh,
@@ -374,6 +385,14 @@ impl<'a> Refiner<'a> {
             let number = numbering.of_corner(h, mesh.twins()[h as usize]);
             left.extend([mesh.faces().corners()[h as usize], on_edges + number, in_faces + mesh.faces().face_of(h)]);
         }
+    }
+}
+
+/// The numbers of corners of a mesh's faces.
+fn sizes(mesh: &HalfEdgeMesh) -> BTreeSet<usize> {
+    match mesh.faces().same_size() {
+        Some(size) => BTreeSet::from([size as usize]),
+        None => mesh.faces().iter().map(<[u32]>::len).collect(),
     }
 }
 

@@ -51,6 +51,13 @@ pub struct Angle {
     pub bound: f64,
 }
 
+impl Angle {
+    /// Whether refinement went deep enough for the angle to say something.
+    pub fn is_seen(&self) -> bool {
+        self.bound < 0.1
+    }
+}
+
 /// How fast rings were seen to shrink in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Observed {
@@ -118,16 +125,21 @@ impl<'a> Verifier<'a> {
             (Ok(first), Ok(second), Some(rates)) => survival(first, second, rates),
             _ => 0.0,
         };
-        for _ in 1..steps {
+        let seen = steps_to_see(masks.rates.as_ref(), steps);
+        let mut normal_seen = zoom.normal();
+        for step in 1..steps {
             observed.push(zoom.step()?);
+            if step < seen {
+                normal_seen = zoom.normal();
+            }
         }
         let position = largest_difference(point, zoom.centre());
         let expected = first.map_err(Clone::clone).and_then(|[a, b]| {
             unit(cross(a, b), 0.0).ok_or_else(|| "its tangents are parallel for these points".to_string())
         });
         let normal = expected.map(|normal| Angle {
-            angle: angle(normal, zoom.normal()),
-            bound: masks.rates.map_or(NORMAL, |rates| normal_bound(&rates, steps)),
+            angle: angle(normal, normal_seen),
+            bound: masks.rates.map_or(NORMAL, |rates| normal_bound(&rates, seen)),
         });
         let rates = masks.rates.map(|rates| (rates, zoom::observed(&observed)));
         let normal_agrees = normal.as_ref().map_or(true, |normal| normal.angle <= normal.bound);
@@ -207,7 +219,7 @@ impl Check {
     /// The worse of two checks of one place.
     fn with(self, other: Check) -> Check {
         let normal = match (self.normal, other.normal) {
-            (Ok(a), Ok(b)) => Ok(if a.angle > b.angle { a } else { b }),
+            (Ok(a), Ok(b)) => Ok(if a.angle.is_nan() || a.angle > b.angle { a } else { b }),
             (Err(_), Ok(known)) | (Ok(known), Err(_)) => Ok(known),
             (Err(why), Err(_)) => Err(why),
         };
@@ -224,6 +236,14 @@ fn steps_needed(rates: Option<&Rates>, points: usize) -> usize {
         |ratio: f64| if ratio < 1.0 { (libm::log(1e-15) / libm::log(ratio.max(1e-3))).ceil() } else { f64::INFINITY };
     let most = MOST_STEPS.min(MOST_POINTS / points.max(1)).max(60);
     (until(ratio).max(until(position)) as usize).clamp(60, most)
+}
+
+/// The step after which the normal is looked at: while the two tangents are not so different in length that rounding of the longer one drowns the
+/// shorter.
+fn steps_to_see(rates: Option<&Rates>, steps: usize) -> usize {
+    let ratio = rates.map_or(1.0, |rates| rates.lambda[0].max(rates.lambda[1]) / rates.lambda[0].min(rates.lambda[1]));
+    let most = 20.0 / libm::log10(ratio).max(1e-3);
+    steps.min(most as usize).max(1)
 }
 
 /// What slow convergence leaves of the angle: a multiple of (mu/lambda)^m.

@@ -10,7 +10,7 @@
 //! the two directions that shrink in different measure, where they do. Coordinates are refined apart from each other,
 //! so each keeps its digits however small it becomes.
 
-use super::super::limit::{cross, unit};
+use super::super::limit::{cross, scaled, unit};
 use super::super::places::{LabelledMask, Place, point_at};
 use super::Observed;
 use crate::mesh::{
@@ -278,12 +278,6 @@ impl Plane {
         let turned = Plane { columns };
         if turned.determinant() > 0.0 { turned } else { Plane { columns: [columns[0], columns[1].map(|x| -x)] } }
     }
-}
-
-/// A vector over its largest entry: what follows does not underflow.
-fn scaled(v: [f64; 3]) -> [f64; 3] {
-    let largest = v.iter().fold(0.0_f64, |top, x| top.max(x.abs()));
-    if largest > 0.0 { v.map(|x| x / largest) } else { v }
 }
 
 /// The rates of the last steps: the eigenvalues of the map of a and b, and the mean ratio of heights while they can be seen.
