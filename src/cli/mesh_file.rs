@@ -71,7 +71,7 @@ impl Reading {
             let (split, repair) = split_non_manifold(soup).map_err(|wrong| not_a_mesh(path, &wrong))?;
             let (edges, vertices) = (repair.edges_cut, repair.vertices_split);
             if edges + vertices > 0 {
-                say(&format!("note: {edges} non-manifold edges were cut apart, {vertices} vertices split"));
+                say(&format!("note: non-manifold edges cut apart: {edges}; vertices split: {vertices}"));
             }
             soup = split;
         }

@@ -118,6 +118,10 @@ impl Job {
         let refiner = Refiner::new(scheme, book.as_ref()).map_err(|wrong| refused(scheme, wrong))?;
         refiner.fits(&loaded.mesh, &loaded.tags).map_err(|wrong| refused(scheme, wrong))?;
         check_size::<T>(&refiner, &loaded.mesh, levels, to_limit, None)?;
+        let ending = loaded.tags.most_steps().ceil() as usize;
+        if to_limit && ending > levels {
+            check_size::<f64>(&refiner, &loaded.mesh, ending, true, Some(BEFORE_LIMIT))?;
+        }
         let start = Instant::now();
         let positions = loaded.positions.into_iter().map(|p| p.map(T::from_f64)).collect();
         let mut at = Level { mesh: loaded.mesh, positions, tags: loaded.tags };
@@ -270,6 +274,10 @@ pub(crate) fn refused(scheme: &Scheme, wrong: NotRefinable) -> Failure {
             scheme.book.title
         )),
         NotRefinable::Obstacle(obstacle) => explain(scheme, obstacle),
+        NotRefinable::Face { needed: 3, .. } => failure(format!(
+            "{}: {wrong}\n  help: split the faces into triangles, or take a scheme for polygons, such as catmull-clark",
+            scheme.book.title
+        )),
         other => failure(format!("{}: {other}", scheme.book.title)),
     }
 }

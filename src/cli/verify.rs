@@ -7,12 +7,14 @@ use super::refine::{BEFORE_LIMIT, check_size, no_limit, refused, valences_of};
 use super::valences::{Faces, Valences};
 use super::{Failure, failure, print};
 use clap::{Args, ValueEnum};
+use eigenring::analysis::boundary::MAX_FACES;
 use eigenring::analysis::places::Place;
 use eigenring::analysis::verify::{Check, Levels, NORMAL, POSITION, Verifier};
-use eigenring::mesh::{FanKind, HalfEdgeMesh, PolygonSoup, Split, Tags, shapes};
+use eigenring::mesh::{Connectivity, FanKind, HalfEdgeMesh, PolygonSoup, Split, Tags, shapes};
 use eigenring::refine::{Level, Refiner};
 use eigenring::scheme::Scheme;
 use indicatif::{ProgressBar, ProgressStyle};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -31,7 +33,7 @@ pub(crate) struct Verify {
     /// Valences inside the mesh: 3..12 (both included), or a list such as 3,4,7..9 [default: 3..12; with --mesh, the mesh's]
     #[arg(long, short = 'n', value_name = "LIST")]
     valence: Option<Valences>,
-    /// Numbers of faces at a boundary vertex [default: 1..6 where the scheme has boundary rules]
+    /// Numbers of faces at a boundary vertex [default: 1..6 where the scheme has boundary rules; with --mesh, the mesh's]
     #[arg(long, short, value_name = "LIST")]
     boundary_faces: Option<Faces>,
     /// Check limits on this mesh, too: OBJ, PLY, OFF or STL
@@ -81,7 +83,8 @@ impl Verify {
         let book = boundary_of(&scheme)?;
         let refiner = Refiner::new(&scheme, book.as_ref()).map_err(|wrong| refused(&scheme, wrong))?;
         let verifier = Verifier::new(&refiner).map_err(|obstacle| explain(&scheme, obstacle))?;
-        let places = self.places(&refiner, &valences);
+        let own = meshes.first().map(|(_, level)| boundary_faces_of(&level.mesh));
+        let places = self.places(&refiner, &valences, own);
         let bar = progress(places.len());
         let mut checks = Vec::new();
         for place in places {
@@ -101,12 +104,13 @@ impl Verify {
     }
 
     /// Inside, and where there are boundary rules, on boundaries, at corners and at darts.
-    fn places(&self, refiner: &Refiner, valences: &[usize]) -> Vec<Place> {
+    fn places(&self, refiner: &Refiner, valences: &[usize], own: Option<Vec<usize>>) -> Vec<Place> {
         let mut places: Vec<Place> = valences.iter().map(|n| Place::Inside(*n)).collect();
         if refiner.boundary().is_none() || refiner.split() == Split::Dual {
             return places;
         }
-        let faces = self.boundary_faces.as_ref().map_or_else(|| (1..=6).collect(), |list| list.0.clone());
+        let asked = self.boundary_faces.as_ref().map(|list| list.0.clone());
+        let faces = asked.or(own).unwrap_or_else(|| (1..=6).collect());
         let fan = |kind: fn(usize) -> FanKind| faces.iter().map(move |faces| kind(*faces));
         places.extend(fan(|faces| FanKind::Crease { faces }).map(Place::Fan));
         places.extend(fan(|faces| FanKind::Corner { faces }).map(Place::Fan));
@@ -141,6 +145,14 @@ impl Verify {
         }
         Ok(found)
     }
+}
+
+/// The numbers of faces at a mesh's boundary vertices: the smallest so many.
+fn boundary_faces_of(mesh: &HalfEdgeMesh) -> Vec<usize> {
+    const CHECKED: usize = 20;
+    let boundary = mesh.vertex_edges().iter().filter(|h| mesh.boundary_at(**h).is_some());
+    let faces: BTreeSet<usize> = boundary.map(|h| mesh.valence(*h) - 1).filter(|k| *k <= MAX_FACES).collect();
+    faces.into_iter().take(CHECKED).collect()
 }
 
 /// Named shapes that a scheme can refine; closed ones where it has no boundary rules.
@@ -198,7 +210,7 @@ fn rate(value: f64) -> String {
 fn text(scheme: &Scheme, asked: &Verify, checks: &[Check], meshes: &[OnMesh]) -> String {
     let trials = asked.trials;
     let mut text = format!(
-        "{}: masks against {trials} random neighbourhoods each, refined deeply (seed {})\n\n",
+        "{}: masks against random neighbourhoods, {trials} at each place, refined deeply (seed {})\n\n",
         scheme.book.title, asked.seed
     );
     let _ = writeln!(
