@@ -31,7 +31,8 @@ pub struct Check {
     pub steps: usize,
     /// The largest difference of a coordinate of the limit point.
     pub position: f64,
-    /// How well tangent masks survive a step: the largest coordinate of u x_1 - lambda u x_0. 0 where there are none.
+    /// How well tangent masks survive a step: the largest coordinate of u x_1 - lambda u x_0, over the sum of |u|, at least 1. 0 where there
+    /// are none.
     pub tangent: f64,
     /// The angle between the normals, or why there is no normal.
     pub normal: Result<Angle, String>,
@@ -122,7 +123,7 @@ impl<'a> Verifier<'a> {
         let steps = steps_needed(masks.rates.as_ref(), zoom.points());
         let mut observed = vec![zoom.step()?];
         let tangent = match (&first, &tangents(&zoom), &masks.rates) {
-            (Ok(first), Ok(second), Some(rates)) => survival(first, second, rates),
+            (Ok(first), Ok(second), Some(rates)) => survival(first, second, rates) / weight(masks),
             _ => 0.0,
         };
         let seen = steps_to_see(masks.rates.as_ref(), steps);
@@ -259,6 +260,12 @@ fn survival(first: &[[f64; 3]; 2], second: &[[f64; 3]; 2], rates: &Rates) -> f64
         largest_difference(first[tangent].map(|x| factor * x), second[tangent])
     };
     worse(apart(0), apart(1))
+}
+
+/// The sum of |u| of the heavier tangent mask, at least 1: rounding grows with it.
+fn weight(masks: &PlaceMasks) -> f64 {
+    let sum = |mask: &super::places::LabelledMask| mask.iter().map(|(_, weight)| weight.abs()).sum::<f64>();
+    masks.tangents.as_ref().map_or(1.0, |masks| masks.iter().map(sum).fold(1.0, f64::max))
 }
 
 fn largest_difference(a: [f64; 3], b: [f64; 3]) -> f64 {
