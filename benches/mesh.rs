@@ -64,11 +64,11 @@ fn measure(id: &str, soup: &PolygonSoup, threads: usize) -> Done<()> {
         let mut other = refined.clone();
         let copied = median(5, || copy(&refined, &mut other));
         let mut buffers = Buffers::default();
-        buffers.take_refined(refined);
+        buffers.take(refined);
         let warm = median(5, || {
             let (time, refined) = seconds(|| refiner.last_step_in(&at, Route::Fast, &mut buffers));
             if let Ok(refined) = black_box(refined) {
-                buffers.take_refined(refined);
+                buffers.take(refined);
             }
             time
         });

@@ -1,22 +1,13 @@
 //! Do limit points and normals by masks agree with each other from level to level, with splines, and with deep refinement?
 #![allow(clippy::unwrap_used)]
 
+mod shared;
+
 use eigenring::analysis::limit::{LimitSurface, Limits};
-use eigenring::mesh::{Crease, HalfEdgeMesh, PolygonSoup, Tags, shapes};
+use eigenring::mesh::{Crease, HalfEdgeMesh, PolygonSoup, shapes};
 use eigenring::refine::{Level, Refiner, Route};
-use eigenring::scheme::{RuleBook, Scheme, catalogue};
-
-fn open(id: &str) -> (Scheme, RuleBook) {
-    let scheme = catalogue::open(id).unwrap().unwrap();
-    let book = catalogue::boundary("cubic", &scheme.mesh).unwrap().unwrap();
-    (scheme, book)
-}
-
-fn level(soup: &PolygonSoup) -> Level<f64> {
-    let mesh = HalfEdgeMesh::new(soup.positions.len(), soup.faces.clone()).unwrap();
-    let tags = Tags::new(&mesh, &soup.creases, &soup.corners).unwrap();
-    Level { mesh, positions: soup.positions.clone(), tags }
-}
+use eigenring::scheme::{RuleBook, Scheme};
+use shared::{level, open};
 
 /// The shape with every point moved by a little, the same each time: nothing is symmetric, nothing planar.
 fn shaken(mut soup: PolygonSoup) -> PolygonSoup {
@@ -384,4 +375,19 @@ fn a_vertex_without_masks_is_named() {
     let refiner = Refiner::new(&scheme, Some(&book)).unwrap();
     let wrong = Limits::new(&refiner).unwrap().of(&level(&shapes::fan(300, true)), &|| ()).unwrap_err();
     assert!(wrong.to_string().starts_with("vertex 0 has no limit point: the number of faces at a crease"), "{wrong}");
+}
+
+/// Warren's 3/(8 n) at n = 3: the cup eigenvalue 5/8 - 3/8 is 1/4, and so is that of frequency 1. Floating numbers don't decide a tie.
+#[test]
+fn a_tie_is_undecided() {
+    let text = "name = \"Tie\"\nmesh = \"triangles\"\nsplit = \"1-to-4\"\n[vertex]\ncentre = \"5/8\"\nring = \"3/(8*n)\"\n\
+        [edge]\nends = \"3/8\"\nopposite = \"1/8\"\n";
+    let scheme = Scheme::parse("tie", "tie.toml", text).unwrap();
+    let refiner = Refiner::new(&scheme, None).unwrap();
+    let surface = Limits::new(&refiner).unwrap().of(&level(&shaken(shapes::tetrahedron())), &|| ()).unwrap();
+    let told: Vec<&String> = surface.without_normal.keys().collect();
+    assert!(
+        told.len() == 1 && told[0].starts_with("undecided: 0.250000 of frequency 1 and 0.250000 of frequency 0"),
+        "{told:?}"
+    );
 }

@@ -1,24 +1,15 @@
 //! Does a step of refinement make the mesh that it should, by both routes, with creases and boundaries?
 #![allow(clippy::unwrap_used)]
 
+mod shared;
+
 use eigenring::mesh::{
     Connectivity, Crease, Faces, HalfEdgeMesh, LinkedMesh, PolygonSoup, Tags, edge_between, first_corner, shapes,
 };
 use eigenring::refine::{Level, NotRefinable, Refiner, Route, most_ulps};
-use eigenring::scheme::{RuleBook, Scheme, catalogue};
+use eigenring::scheme::{Scheme, catalogue};
+use shared::{level, open};
 use std::collections::BTreeMap;
-
-fn open(id: &str) -> (Scheme, RuleBook) {
-    let scheme = catalogue::open(id).unwrap().unwrap();
-    let book = catalogue::boundary("cubic", &scheme.mesh).unwrap().unwrap();
-    (scheme, book)
-}
-
-fn level(soup: &PolygonSoup) -> Level<f64> {
-    let mesh = HalfEdgeMesh::new(soup.positions.len(), soup.faces.clone()).unwrap();
-    let tags = Tags::new(&mesh, &soup.creases, &soup.corners).unwrap();
-    Level { mesh, positions: soup.positions.clone(), tags }
-}
 
 fn triangle_shapes() -> Vec<PolygonSoup> {
     let discs = [3, 4, 5, 8].map(|n| shapes::disc(n, true));

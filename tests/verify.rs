@@ -1,17 +1,14 @@
 //! Does deep refinement of real meshes agree with the masks, and does the check see a wrong one?
 #![allow(clippy::unwrap_used)]
 
+mod shared;
+
 use eigenring::analysis::places::{Place, PlaceMasks};
 use eigenring::analysis::verify::{Check, Verifier};
-use eigenring::mesh::{FanKind, HalfEdgeMesh, Tags, shapes};
-use eigenring::refine::{Level, Refiner};
-use eigenring::scheme::{RuleBook, Scheme, catalogue};
-
-fn open(id: &str) -> (Scheme, RuleBook) {
-    let scheme = catalogue::open(id).unwrap().unwrap();
-    let book = catalogue::boundary("cubic", &scheme.mesh).unwrap().unwrap();
-    (scheme, book)
-}
+use eigenring::mesh::{FanKind, shapes};
+use eigenring::refine::Refiner;
+use eigenring::scheme::{Scheme, catalogue};
+use shared::{level, open};
 
 fn check(id: &str, place: Place) -> Check {
     let (scheme, book) = open(id);
@@ -114,8 +111,7 @@ fn limits_of_meshes_are_compared() {
     let (scheme, book) = open("catmull-clark");
     let verifier = Verifier::new(&Refiner::new(&scheme, Some(&book)).unwrap()).unwrap();
     for soup in [shapes::prism(5), shapes::tube(3, 5, false)] {
-        let mesh = HalfEdgeMesh::new(soup.positions.len(), soup.faces).unwrap();
-        let level = Level { mesh, positions: soup.positions, tags: Tags::default() };
+        let level = level(&soup);
         let levels = verifier.levels(&level, 3).unwrap();
         assert!(levels.agrees && levels.vertices == level.mesh.vertices(), "{levels:?}");
         // the net of a spline converges quadratically in the size of its faces

@@ -154,9 +154,14 @@ impl Spectra<'_> {
     /// When the valence is out of range or a weight has no value there.
     pub fn masks(&self, valence: usize) -> Result<PlaceMasks, Obstacle> {
         let (local, blocks, cores, spectrum) = self.stages(valence)?;
-        let one = spectrum.one().filter(|_| converges(&spectrum));
-        let left = one.and_then(|one| spectrum.left_vector(&blocks, &cores, &one));
-        let limit = left.and_then(|(left, _)| Mask::limit(&left, &local));
+        let limit = || {
+            if let Some(why) = why_not_convergent(&spectrum) {
+                return Err(why);
+            }
+            let left = spectrum.one().and_then(|one| spectrum.left_vector(&blocks, &cores, &one));
+            let mask = left.and_then(|(left, _)| Mask::limit(&left, &local));
+            Ok(mask.ok_or("the limit mask can't be computed")?.weights(&local))
+        };
         let lambda = lambda(&spectrum);
         let tangents = lambda.and_then(|lambda| {
             let left = spectrum.left_vector(&blocks, &cores, &lambda).map(|(left, _)| left);
@@ -168,43 +173,46 @@ impl Spectra<'_> {
             Rates { lambda: [lambda.modulus(); 2], mu, jordan: 1 }
         };
         Ok(PlaceMasks {
-            limit: limit
-                .map(|mask| mask.weights(&local))
-                .ok_or_else(|| "the points do not converge: 1 is not the largest eigenvalue".to_string()),
+            limit: limit(),
             rates: tangents.as_ref().ok().and(spectrum.subdominant()).map(after),
             tangents: tangents.map(|masks| masks.map(|mask| mask.weights(&local))),
         })
     }
 }
 
-/// Whether 1 is the largest eigenvalue, by more than floating numbers can't tell.
-fn converges(spectrum: &Spectrum) -> bool {
-    spectrum.after_one().next().is_none_or(|next| next.modulus() < 1.0 - NEAR)
+/// Why 1 is not known to be larger than all that follows; equal to it as far as floating numbers tell, the next leaves the question open.
+fn why_not_convergent(spectrum: &Spectrum) -> Option<String> {
+    let next = spectrum.after_one().next().map_or(0.0, Eigenvalue::modulus);
+    match next {
+        _ if next < 1.0 - NEAR => None,
+        _ if next <= 1.0 + NEAR => {
+            Some("undecided: 1 and the next eigenvalue are approximately equal in modulus".to_string())
+        }
+        _ => Some(format!("the points do not converge: there is an eigenvalue of modulus {next:.6}")),
+    }
 }
 
 /// The subdominant eigenvalue, where there is a tangent plane: of frequency 1, real and positive, and larger than all that follow.
 fn lambda(spectrum: &Spectrum) -> Result<Eigenvalue, String> {
+    if let Some(why) = why_not_convergent(spectrum) {
+        return Err(why);
+    }
     let Some(lambda) = spectrum.subdominant() else { return Err("there is no eigenvalue but 1".to_string()) };
     let value = |e: &Eigenvalue| format!("{:.6} of frequency {}", e.modulus(), e.frequency);
-    if !converges(spectrum) {
-        return Err("the points do not converge".to_string());
-    }
-    if lambda.frequency != 1 {
-        return Err(format!(
-            "no tangent plane: the largest eigenvalue after 1, {}, is not of frequency 1",
-            value(&lambda)
-        ));
+    // of several that are near each other the one of frequency 1 is taken: another may be as large
+    let rival = spectrum.after_subdominant().next().filter(|next| next.modulus() >= lambda.modulus() - NEAR);
+    if let Some(rival) = rival {
+        return Err(format!("undecided: {} and {} are approximately equal in modulus", value(&lambda), value(rival)));
     }
     if !lambda.is_isolated() {
         return Err(format!("undecided: eigenvalues approximately equal at {}", value(&lambda)));
     }
-    if lambda.real().is_none_or(|real| real <= 0.0) {
-        return Err(format!("no tangent plane: the largest eigenvalue after 1, {}, is not positive", value(&lambda)));
+    if lambda.frequency != 1 {
+        let why = "no tangent plane: the largest eigenvalue after 1";
+        return Err(format!("{why}, {}, is not of frequency 1", value(&lambda)));
     }
-    match spectrum.after_subdominant().next() {
-        Some(next) if next.modulus() >= lambda.modulus() - NEAR => {
-            Err(format!("no tangent plane: {} does not dominate {}", value(&lambda), value(next)))
-        }
-        _ => Ok(lambda),
+    match lambda.real() {
+        Some(real) if real > 0.0 => Ok(lambda),
+        _ => Err(format!("no tangent plane: the largest eigenvalue after 1, {}, is not positive", value(&lambda))),
     }
 }

@@ -224,8 +224,9 @@ fn text(scheme: &Scheme, asked: &Verify, checks: &[Check], meshes: &[OnMesh]) ->
     let _ = writeln!(
         text,
         "\nlimit point: the largest difference of a coordinate (at most {POSITION:.0e}); tangents: that between a step and lambda times the \
-         tangents\nbefore it (at most {POSITION:.0e}); normal: the angle in radians (at most {NORMAL:.0e}, or what slow convergence leaves); lambda: \
-         the factors\nby which tangents shrink in a step; mu: that of what is beside them.\n"
+         tangents\nbefore it, over the sum of the mask's weights without their signs where that is above 1 (at most {POSITION:.0e}); normal: the angle in \
+         radians\n(at most {NORMAL:.0e}, or what slow convergence leaves); lambda: the factors by which tangents shrink in a step; mu: that of what is \
+         beside them.\n"
     );
     for mesh in meshes {
         let Levels { vertices, position, normal, without_normal, gaps, agrees } = &mesh.levels;

@@ -98,7 +98,7 @@ mod tests {
                     let expected = Counts::of(&mesh).after(split);
                     let numbering = Numbering::of(&mesh);
                     let faces = split.faces(&mesh, &numbering, Vec::new());
-                    mesh = split.mesh(&mesh, &numbering, faces, Default::default());
+                    mesh = split.mesh(&mesh, &numbering, faces);
                     assert_eq!(Counts::of(&mesh), expected, "{split:?}, shape {index}");
                 }
             }

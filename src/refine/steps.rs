@@ -105,19 +105,17 @@ impl From<NotAMesh> for NotRefinable {
     }
 }
 
-/// The memory of what a step made and is done with, for the next one.
+/// The memory of what a last step made and is done with, for the next one.
 #[derive(Debug, Default)]
 pub struct Buffers<T> {
     numbering: Numbering,
     corners: Vec<u32>,
-    twin: Vec<u32>,
-    leaving: Vec<u32>,
     positions: Vec<Point<T>>,
 }
 
 impl<T: Coordinate> Buffers<T> {
     /// Takes the memory of a last step that is done with.
-    pub fn take_refined(&mut self, refined: Refined<T>) {
+    pub fn take(&mut self, refined: Refined<T>) {
         self.corners = refined.faces.into_corners();
         self.positions = refined.positions;
     }
@@ -192,22 +190,9 @@ impl<'a> Refiner<'a> {
     /// # Errors
     /// When the split can't be applied, the new mesh is too large, or a point can't be made.
     pub fn step<T: Coordinate>(&self, level: &Level<T>, route: Route) -> Result<Level<T>, NotRefinable> {
-        self.step_in(level, route, &mut Buffers::default())
-    }
-
-    /// One step, in memory that is there already.
-    ///
-    /// # Errors
-    /// As [`Refiner::step`].
-    pub fn step_in<T: Coordinate>(
-        &self,
-        level: &Level<T>,
-        route: Route,
-        buffers: &mut Buffers<T>,
-    ) -> Result<Level<T>, NotRefinable> {
-        let Refined { faces, positions } = self.last_step_in(level, route, buffers)?;
-        let spare = [std::mem::take(&mut buffers.twin), std::mem::take(&mut buffers.leaving)];
-        let mesh = self.split.mesh(&level.mesh, &buffers.numbering, faces, spare);
+        let mut buffers = Buffers::default();
+        let Refined { faces, positions } = self.last_step_in(level, route, &mut buffers)?;
+        let mesh = self.split.mesh(&level.mesh, &buffers.numbering, faces);
         let tags = self.split.tags(&level.mesh, &level.tags, &mesh);
         Ok(Level { mesh, positions, tags })
     }

@@ -131,7 +131,7 @@ impl<'r, 'a> Zoom<'r, 'a> {
         let split = self.refiner.split();
         let numbering = Numbering::of(&self.mesh);
         let faces = split.faces(&self.mesh, &numbering, Vec::new());
-        let fine = split.mesh(&self.mesh, &numbering, faces, Default::default());
+        let fine = split.mesh(&self.mesh, &numbering, faces);
         let kept = self.kept(&fine);
         let refinement = Refinement::new(self.refiner.scheme(), self.refiner.boundary());
         let point = |vertex: &u32| {

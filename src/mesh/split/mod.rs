@@ -112,18 +112,11 @@ impl Split {
         }
     }
 
-    /// The new mesh, from its faces; twins, and half-edges that leave vertices, in the memory of `buffers` as far as it suffices.
-    pub fn mesh(
-        self,
-        mesh: &HalfEdgeMesh,
-        numbering: &Numbering,
-        faces: Faces,
-        buffers: [Vec<u32>; 2],
-    ) -> HalfEdgeMesh {
-        let [twin, leaving] = buffers;
+    /// The new mesh, from its faces.
+    pub fn mesh(self, mesh: &HalfEdgeMesh, numbering: &Numbering, faces: Faces) -> HalfEdgeMesh {
         let (twin, leaving) = match self {
-            Split::OneToFour => (one_to_four::twins(mesh, twin), one_to_four::leaving(mesh, numbering, leaving)),
-            Split::OneToN => (one_to_n::twins(mesh, twin), one_to_n::leaving(mesh, numbering, leaving)),
+            Split::OneToFour => (one_to_four::twins(mesh), one_to_four::leaving(mesh, numbering)),
+            Split::OneToN => (one_to_n::twins(mesh), one_to_n::leaving(mesh, numbering)),
             Split::Dual => dual::twins_and_leaving(mesh, numbering, &faces),
         };
         HalfEdgeMesh::from_parts(faces, twin, leaving)

@@ -46,9 +46,9 @@ pub(super) fn faces(old: &Faces, twins: &[u32], vertices: usize, numbering: &Num
     Faces::same(3, new)
 }
 
-pub(super) fn twins(mesh: &HalfEdgeMesh, buffer: Vec<u32>) -> Vec<u32> {
+pub(super) fn twins(mesh: &HalfEdgeMesh) -> Vec<u32> {
     let twins = mesh.twins();
-    let mut new = room(buffer, 4 * twins.len());
+    let mut new = room(Vec::new(), 4 * twins.len());
     let run = |(index, new): (usize, &mut [u32])| {
         let twins = &twins[3 * RUN * index..3 * RUN * index + new.len() / 4];
         let faces = new.as_chunks_mut::<12>().0.iter_mut();
@@ -75,11 +75,11 @@ pub(super) fn twins(mesh: &HalfEdgeMesh, buffer: Vec<u32>) -> Vec<u32> {
     new
 }
 
-pub(super) fn leaving(mesh: &HalfEdgeMesh, numbering: &Numbering, buffer: Vec<u32>) -> Vec<u32> {
+pub(super) fn leaving(mesh: &HalfEdgeMesh, numbering: &Numbering) -> Vec<u32> {
     let old = mesh.vertex_edges().par_iter().map(|h| first_half(*h));
     // from the point on an edge to the old vertex: the half-edge before the first corner of the next child
     let on_edges = numbering.first_corners().par_iter().map(|h| second_half(*h));
-    let mut leaving = room(buffer, mesh.vertices() + numbering.edges());
+    let mut leaving = room(Vec::new(), mesh.vertices() + numbering.edges());
     let (at_old, at_edges) = leaving.split_at_mut(mesh.vertices());
     at_old.par_iter_mut().zip(old).for_each(|(new, h)| *new = h);
     at_edges.par_iter_mut().zip(on_edges).for_each(|(new, h)| *new = h);

@@ -27,9 +27,9 @@ pub(super) fn faces(old: &Faces, twins: &[u32], vertices: usize, numbering: &Num
     Faces::same(4, new)
 }
 
-pub(super) fn twins(mesh: &HalfEdgeMesh, buffer: Vec<u32>) -> Vec<u32> {
+pub(super) fn twins(mesh: &HalfEdgeMesh) -> Vec<u32> {
     let (old, twins) = (mesh.faces(), mesh.twins());
-    let mut new = room(buffer, 4 * twins.len());
+    let mut new = room(Vec::new(), 4 * twins.len());
     let run = |(index, new): (usize, &mut [u32])| {
         for (at, new) in new.as_chunks_mut::<4>().0.iter_mut().enumerate() {
             let h = (RUN * index + at) as u32;
@@ -46,9 +46,9 @@ pub(super) fn twins(mesh: &HalfEdgeMesh, buffer: Vec<u32>) -> Vec<u32> {
     new
 }
 
-pub(super) fn leaving(mesh: &HalfEdgeMesh, numbering: &Numbering, buffer: Vec<u32>) -> Vec<u32> {
+pub(super) fn leaving(mesh: &HalfEdgeMesh, numbering: &Numbering) -> Vec<u32> {
     let old = mesh.faces();
-    let mut leaving = room(buffer, mesh.vertices() + numbering.edges() + old.len());
+    let mut leaving = room(Vec::new(), mesh.vertices() + numbering.edges() + old.len());
     let (at_vertices, rest) = leaving.split_at_mut(mesh.vertices());
     let (at_edges, in_faces) = rest.split_at_mut(numbering.edges());
     at_vertices.par_iter_mut().zip(mesh.vertex_edges()).for_each(|(new, h)| *new = 4 * h);
