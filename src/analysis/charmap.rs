@@ -2,7 +2,7 @@
 //!
 //! The characteristic map (Reif 1995): the limit of the net whose control points are the right vector of the subdominant
 //! eigenvalue, taken as complex numbers. The net goes on without end by f(A) = (S f)(A)/lambda, since S f = lambda f holds
-//! at every label; and the points of level m are those of level 0 at labels 2^m times as far out, so that dense sampling
+//! at every label; and the points of level m are those of level 0 at labels d^m times as far out (d is the dilation, mostly 2), so that dense sampling
 //! is the same net further out. Limit points and derivatives come from the scheme's own masks at the regular valence.
 //! All of it is approximate.
 
@@ -132,11 +132,12 @@ impl<'r, 's> CharacteristicMap<'r, 's> {
     }
 
     /// Samples over the closed ring segment of sector 0, at the points of the lattice whose distance from the centre is from
-    /// `scale` to twice that; row by row from spoke 0 on, each row from the inside out.
+    /// `scale` to that times the dilation; row by row from spoke 0 on, each row from the inside out.
     pub fn samples(&self, masks: &RegularMasks, scale: i32) -> Option<Vec<Sample>> {
         let lattice = self.rows.patch.lattice;
-        let inside = |(i, j): &Orbit| (scale..=2 * scale).contains(&lattice.ring(*i, *j));
-        let grid = (0..=2 * scale).flat_map(|j| (0..=2 * scale).map(move |i| (i, j)));
+        let outer = self.rows.dilation() * scale;
+        let inside = |(i, j): &Orbit| (scale..=outer).contains(&lattice.ring(*i, *j));
+        let grid = (0..=outer).flat_map(|j| (0..=outer).map(move |i| (i, j)));
         grid.filter(inside).map(|at| self.sample(masks, at)).collect()
     }
 }

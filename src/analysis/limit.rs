@@ -4,15 +4,14 @@
 //! the mesh, on boundaries and creases, at corners and darts. Masks come from the analysis, at each place that the mesh has. A mask holds where the
 //! mesh is like the canonical patch as far as the rules of its points look: where rules are compact and the mask lies on the faces around the vertex,
 //! these alone must be regular; else so must all vertices around it, out to the reach of the neighbourhood. Where
-//! they are not, and while creases that end are there, the mesh is refined first: an old vertex keeps its number and its limit.
+//! they are not, and while creases that end are there, the mesh is refined first, and vertices are followed: to vertices, or to faces.
 
 use super::places::{LabelledMask, Place, PlaceMasks, Places, point_at};
-use crate::mesh::{Connectivity, FanKind, HalfEdgeMesh, Lattice, Split, Tagged};
-use crate::refine::{Level, NotRefinable, Obstacle, Refiner, Route, lattice_of};
+use crate::mesh::{Centre, Connectivity, Cycle, FanKind, HalfEdgeMesh, Lattice, Tagged};
+use crate::refine::{Level, NotRefinable, Obstacle, Refiner, Route, cycle_of, lattice_of};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
-use std::ops::Range;
 
 /// Limit points and normals of a mesh's vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -77,6 +76,8 @@ pub struct Limits<'a> {
     near: bool,
     /// How many rings of vertices must be regular otherwise.
     reach: usize,
+    /// The steps after which irregular vertices (dual: faces) are so far apart, wherever they are.
+    steps_apart: usize,
 }
 
 impl<'a> Limits<'a> {
@@ -88,7 +89,9 @@ impl<'a> Limits<'a> {
         let lattice = lattice_of(refiner.scheme());
         let places = Places::new(refiner.scheme(), refiner.boundary())?;
         let reach = places.reach()?;
-        Ok(Limits { refiner: refiner.clone(), lattice, places, near: refiner.is_compact(), reach })
+        let cycle = cycle_of(refiner.scheme())?;
+        let (near, steps_apart) = (refiner.is_compact(), steps_apart(reach, &cycle));
+        Ok(Limits { refiner: refiner.clone(), lattice, places, near, reach, steps_apart })
     }
 
     /// The masks of a place.
@@ -107,9 +110,9 @@ impl<'a> Limits<'a> {
     /// The steps that a level is refined by before its masks are applied.
     pub fn steps_before(&self, level: &Level<f64>) -> usize {
         let ending = level.tags.most_steps().ceil() as usize;
-        let dual = self.refiner.split() == Split::Dual;
+        let dual = self.refiner.is_dual();
         let sizes = usize::from(!dual && level.mesh.faces().same_size() != Some(self.lattice.face_corners() as u32));
-        let apart = if self.near || self.all_apart(level) { 0 } else { self.reach.ilog2() as usize + 1 };
+        let apart = if self.near || (!dual && self.all_apart(level)) { 0 } else { self.steps_apart };
         ending.max(sizes).saturating_add(apart + usize::from(dual))
     }
 
@@ -131,41 +134,39 @@ impl<'a> Limits<'a> {
     /// # Errors
     /// When the level can't be refined, or a vertex has no limit point.
     pub fn of(&self, level: &Level<f64>, done: &dyn Fn()) -> Result<LimitSurface, NoLimit> {
+        self.of_centres(level, self.vertices(level), done)
+    }
+
+    /// The vertices of a level.
+    pub fn vertices(&self, level: &Level<f64>) -> Vec<Option<Centre>> {
+        (0..level.mesh.vertices() as u32).map(|vertex| Some(Centre::Vertex(vertex))).collect()
+    }
+
+    /// The limit points and normals of some vertices and faces of a level; `done` is called for each step that it is refined by first.
+    ///
+    /// # Errors
+    /// When the level can't be refined, or one has no limit point.
+    pub fn of_centres(
+        &self,
+        level: &Level<f64>,
+        mut centres: Vec<Option<Centre>>,
+        done: &dyn Fn(),
+    ) -> Result<LimitSurface, NoLimit> {
         let mut refined: Option<Level<f64>> = None;
         for _ in 0..self.steps_before(level) {
-            refined = Some(self.refiner.step(refined.as_ref().unwrap_or(level), Route::Fast)?);
+            refined = Some(self.refiner.step_tracing(refined.as_ref().unwrap_or(level), Route::Fast, &mut centres)?);
+            if let Some(gone) = centres.iter().position(Option::is_none) {
+                let why = "it lies on the boundary, which recedes under a dual split, or too near to it".to_string();
+                return Err(NoLimit::Vertex(gone as u32, why));
+            }
             done();
         }
-        self.applied(refined.as_ref().unwrap_or(level), level)
-    }
-
-    fn applied(&self, at: &Level<f64>, level: &Level<f64>) -> Result<LimitSurface, NoLimit> {
-        if self.refiner.split() == Split::Dual {
-            return self.of_faces(at, self.faces_of_vertices(level)?);
-        }
-        self.at_sectors(at, level.mesh.vertices(), |vertex| sectors(at, vertex as u32))
-    }
-
-    /// Dual: the faces that the vertices of a mesh become in one step. In later steps they keep their numbers.
-    ///
-    /// # Errors
-    /// A vertex on the boundary, which becomes no face.
-    pub fn faces_of_vertices(&self, level: &Level<f64>) -> Result<Range<usize>, NoLimit> {
-        let boundary = |(_, h): &(usize, &u32)| level.mesh.boundary_at(**h).is_some();
-        if let Some((vertex, _)) = level.mesh.vertex_edges().iter().enumerate().find(boundary) {
-            let why = "it lies on the boundary, which recedes under a dual split".to_string();
-            return Err(NoLimit::Vertex(vertex as u32, why));
-        }
-        let before = level.mesh.faces().len() + level.mesh.edge_count();
-        Ok(before..before + level.mesh.vertices())
-    }
-
-    /// Dual: the limit points and normals of the middles of faces.
-    ///
-    /// # Errors
-    /// When a weight has no value, or a face has no limit point.
-    pub fn of_faces(&self, at: &Level<f64>, faces: Range<usize>) -> Result<LimitSurface, NoLimit> {
-        self.at_sectors(at, faces.len(), |index| vec![central_face(&at.mesh, faces.start + index)])
+        let at = refined.as_ref().unwrap_or(level);
+        self.at_sectors(at, centres.len(), |index| match centres[index] {
+            Some(Centre::Vertex(vertex)) => sectors(at, vertex),
+            Some(Centre::Face(face)) => vec![central_face(&at.mesh, face as usize)],
+            None => vec![],
+        })
     }
 
     fn at_sectors(
@@ -194,6 +195,17 @@ impl<'a> Limits<'a> {
         let masked = Masked { at, lattice: self.lattice, masks, near: self.near };
         masked.surface(count, sectors)
     }
+}
+
+/// In each step distances grow by the dilation's root; vertices start an edge apart, the middles of faces half of one.
+fn steps_apart(reach: usize, cycle: &Cycle) -> usize {
+    let distance = if cycle.lattice().has_centre() { reach } else { 2 * (reach + 2) };
+    let (mut steps, mut square) = (0, 1.0);
+    while square <= (distance * distance) as f64 {
+        square *= libm::pow(f64::from(cycle.dilation), 2.0 / cycle.steps as f64);
+        steps += 1;
+    }
+    steps
 }
 
 /// A level with the masks of its places.

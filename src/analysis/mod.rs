@@ -104,11 +104,15 @@ pub struct RegularPart {
     pub valence: usize,
     /// The modulus of the largest eigenvalue after 1.
     pub next_modulus: f64,
-    /// The subdominant eigenvalue, when it is of frequency 1, real and positive; a C1 scheme that halves the lattice has 1/2.
+    /// The number of steps in one application of the local matrix.
+    pub steps: usize,
+    /// The factor by which the lattice shrinks in them, d.
+    pub dilation: i32,
+    /// The subdominant eigenvalue, when it is of frequency 1, real and positive; a C1 scheme has 1/d.
     pub lambda: Option<f64>,
     /// The largest modulus after 1 and the subdominant eigenvalue.
     pub rival: f64,
-    /// Whether 1, then 1/2 twice, then less is exactly so.
+    /// Whether 1, then 1/d twice, then less is exactly so.
     pub exactly: Option<bool>,
     /// Whether curvature diverges at regular vertices, exactly.
     pub curvature_diverges: Option<bool>,
@@ -142,10 +146,13 @@ impl<'a> Analyzer<'a> {
         let next_modulus = regular.spectrum.subdominant().map_or(0.0, |e| e.modulus());
         let rival = regular.spectrum.after_subdominant().next().map_or(0.0, |e| e.modulus());
         let lambda = regular.lambda.map(|e| e.value.re);
+        let dilation = analyzer.stencils.dilation();
         analyzer.exact_regular = regular.exact.clone().ok();
-        let exactly = analyzer.exact_regular.as_ref().and_then(one_then_halves);
+        let exactly = analyzer.exact_regular.as_ref().and_then(|regular| one_then_twice(regular, dilation));
         let curvature_diverges = analyzer.exact_regular.as_ref().and_then(ExactAnalysis::curvature_diverges);
-        analyzer.regular_part = RegularPart { valence, next_modulus, lambda, rival, exactly, curvature_diverges };
+        let steps = analyzer.steps();
+        analyzer.regular_part =
+            RegularPart { valence, steps, dilation, next_modulus, lambda, rival, exactly, curvature_diverges };
         if let (Some(limit), Some(tangents)) = (&regular.limit_mask, &regular.tangent_masks) {
             analyzer.regular = Some(RegularMasks::of(&regular.local, limit, tangents));
         }
@@ -160,6 +167,16 @@ impl<'a> Analyzer<'a> {
     /// The lattice that the scheme lives on.
     pub fn lattice(&self) -> Lattice {
         self.lattice
+    }
+
+    /// The number of steps in one application of the local matrix: as many as bring the lattice back to itself.
+    pub fn steps(&self) -> usize {
+        self.refinement.cycle().map_or(1, |cycle| cycle.steps)
+    }
+
+    /// The factor by which these steps shrink the lattice.
+    pub fn dilation(&self) -> i32 {
+        self.stencils.dilation()
     }
 
     /// What holds for all valences at once, or why nothing does.
@@ -291,19 +308,19 @@ pub struct MapPicture {
     pub samples: Option<(i32, Vec<Sample>)>,
 }
 
-/// Whether 1 is alone, 1/2 follows twice, and the rest is less; `None` where that is not decided.
-fn one_then_halves(regular: &ExactAnalysis) -> Option<bool> {
+/// Whether 1 is alone, 1/d follows twice, d being the dilation, and the rest is less; `None` where that is not decided.
+fn one_then_twice(regular: &ExactAnalysis, dilation: i32) -> Option<bool> {
     let (one, next) = (regular.one?, regular.after_one().next()?.0);
     let dominates = regular.compare_moduli(one, next)? == Ordering::Greater;
     let lambda = &regular.eigenvalues[regular.lambda?];
     let rival = regular.after_subdominant().next().map(|(index, _)| regular.compare_moduli(regular.lambda?, index));
     let leads = rival.is_none_or(|order| order == Some(Ordering::Greater));
-    let half = dashu_ratio::RBig::from(1) / dashu_ratio::RBig::from(2);
+    let part = dashu_ratio::RBig::from(1) / dashu_ratio::RBig::from(dilation);
     let (low, high) = lambda.re.lo_hi();
-    if low > half || high < half {
+    if low > part || high < part {
         return Some(false);
     }
-    let exactly = low == high || lambda.exact.as_ref().is_some_and(|words| words.text == "1/2");
+    let exactly = low == high || lambda.exact.as_ref().is_some_and(|words| words.text == format!("1/{dilation}"));
     match rival {
         Some(None) => None,
         _ => exactly.then_some(dominates && leads),

@@ -1,7 +1,7 @@
 //! Which points around an extraordinary point control the limit surface there?
 //!
 //! The *full* neighbourhood: every point that influences the limit over the faces around the centre. A tile of the lattice
-//! is influenced by whatever influences its four children; influence is propagated until it closes. Far from the centre
+//! is influenced by whatever influences its children on the refined lattice; influence is propagated until it closes. Far from the centre
 //! every tile has the same support, found once on the regular lattice; near the centre the scheme's own rows are followed,
 //! at the valence asked for. The one-ring alone is invariant too, but misses eigenvalues that decide curvature (Loop, n = 3).
 
@@ -25,14 +25,18 @@ pub(super) struct Tile {
 }
 
 impl Tile {
-    pub(super) fn children(self, lattice: Lattice) -> [Tile; 4] {
-        let (i, j) = (2 * self.i, 2 * self.j);
-        let tile = |di: i32, dj: i32, down: bool| Tile { i: i + di, j: j + dj, down };
-        match (lattice, self.down) {
-            (Lattice::Triangles, false) => [tile(0, 0, false), tile(1, 0, false), tile(0, 1, false), tile(0, 0, true)],
-            (Lattice::Triangles, true) => [tile(1, 1, false), tile(1, 0, true), tile(0, 1, true), tile(1, 1, true)],
-            _ => [tile(0, 0, false), tile(1, 0, false), tile(0, 1, false), tile(1, 1, false)],
+    /// The tiles that it is made of on the lattice `dilation` times as fine; where it lies at the centre, the one at the centre first.
+    pub(super) fn children(self, lattice: Lattice, dilation: i32) -> Vec<Tile> {
+        let (i, j) = (dilation * self.i, dilation * self.j);
+        let tile = |(di, dj): (i32, i32), down: bool| Tile { i: i + di, j: j + dj, down };
+        let square = (0..dilation).flat_map(|dj| (0..dilation).map(move |di| (di, dj)));
+        if lattice != Lattice::Triangles {
+            return square.map(|at| tile(at, false)).collect();
         }
+        // the upright triangle is the half of the square below its diagonal
+        let up = square.clone().filter(|(di, dj)| (di + dj < dilation) != self.down).map(|at| tile(at, false));
+        let down = square.filter(|(di, dj)| (di + dj < dilation - 1) != self.down).map(|at| tile(at, true));
+        up.chain(down).collect()
     }
 
     /// The points of the lattice in the closed tile; a dual tile has its one point in the middle.
@@ -63,12 +67,13 @@ impl Influence {
     pub fn of(stencils: &RegularStencils, lattice: Lattice) -> Result<Influence, Obstacle> {
         let supports = regular_supports(stencils, lattice)?;
         let extent = supports.iter().flatten().map(|(i, j)| i.abs().max(j.abs())).max().unwrap_or(0);
+        let d = stencils.dilation();
         let far = stencils.clear_of_centre() + 2 * extent;
         let centre = Tile { i: 0, j: 0, down: false };
-        let mut tiles: Vec<Tile> = centre.children(lattice)[1..].to_vec();
+        let mut tiles: Vec<Tile> = centre.children(lattice, d)[1..].to_vec();
         let mut levels = 1;
         while tiles.iter().any(|tile| tile.i + tile.j < far) {
-            tiles = tiles.iter().flat_map(|tile| tile.children(lattice)).collect();
+            tiles = tiles.iter().flat_map(|tile| tile.children(lattice, d)).collect();
             levels += 1;
         }
         let patch = crate::mesh::Patch::new(lattice, lattice.regular_valence());
@@ -85,8 +90,8 @@ impl Influence {
             orbits = clear
                 .into_iter()
                 .flat_map(|(i, j)| {
-                    let (half_i, half_j) = (i.div_euclid(2), j.div_euclid(2));
-                    stencils.at(i, j).iter().map(move |((di, dj), _)| (half_i + di, half_j + dj))
+                    let (base_i, base_j) = stencils.base(i, j);
+                    stencils.at(i, j).iter().map(move |((di, dj), _)| (base_i + di, base_j + dj))
                 })
                 .map(|(i, j)| canonical(i, j))
                 .collect();
@@ -167,11 +172,11 @@ pub(super) fn regular_supports(
     loop {
         let mut grown = supports.clone();
         for down in [false, true] {
-            for child in tile(down).children(lattice) {
+            for child in tile(down).children(lattice, stencils.dilation()) {
                 for (i, j) in &supports[usize::from(child.down)] {
                     let (i, j) = (child.i + i, child.j + j);
-                    let (half_i, half_j) = (i.div_euclid(2), j.div_euclid(2));
-                    let sources = stencils.at(i, j).iter().map(|((di, dj), _)| (half_i + di, half_j + dj));
+                    let (base_i, base_j) = stencils.base(i, j);
+                    let sources = stencils.at(i, j).iter().map(|((di, dj), _)| (base_i + di, base_j + dj));
                     grown[usize::from(down)].extend(sources);
                 }
             }

@@ -101,10 +101,7 @@ pub(super) fn point_at(
     label: Label,
 ) -> Option<u32> {
     let spoke = *spokes.get(label.sector as usize)?;
-    if lattice == Lattice::Dual {
-        return (label.orbit() == (0, 0)).then(|| mesh.origin(spoke));
-    }
-    if label.i == 0 {
+    if lattice.has_centre() && label.i == 0 || label.orbit() == (0, 0) {
         return Some(mesh.origin(spoke));
     }
     let half = lattice.regular_valence() / 2;
@@ -113,7 +110,12 @@ pub(super) fn point_at(
         (0..turns).fold(edge, |edge, _| if last { mesh.turn(edge) } else { mesh.turn_back(edge) })
     };
     let on = |edge: u32, steps: i32| (0..steps).fold(edge, |edge, _| turned(mesh.twin(edge), half));
-    let mut edge = on(spoke, label.i - 1);
+    // dual: the spoke leaves the corner along the face; the ways on lead over the corner along the face's two edges
+    let mut edge = match lattice {
+        Lattice::Dual if label.i == 0 => return Some(mesh.target(on(mesh.prev(spoke), label.j))),
+        Lattice::Dual => on(mesh.twin(spoke), label.i),
+        _ => on(spoke, label.i - 1),
+    };
     if label.j > 0 {
         edge = on(turned(mesh.twin(edge), half - 1), label.j - 1);
     }

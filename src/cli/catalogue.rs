@@ -3,6 +3,7 @@
 use super::open::open;
 use super::{Failure, failure, print};
 use clap::Args;
+use eigenring::refine::is_dual;
 use eigenring::report::write_whole;
 use eigenring::scheme::{Scheme, catalogue};
 use std::fmt::Write;
@@ -39,12 +40,17 @@ fn listing() -> Result<String, Failure> {
         let _ = writeln!(text, "{title}");
         for scheme in own {
             let kind = if scheme.is_interpolating() { "interpolating" } else { "approximating" };
-            let split = if scheme.is_dual() { "vertex split" } else { "face split" };
+            let split = if is_dual(scheme) { "vertex split" } else { "face split" };
             let parameters: Vec<&str> = scheme.book.parameters.iter().map(|p| p.name.as_str()).collect();
             let set =
                 if parameters.is_empty() { String::new() } else { format!(", parameter {}", parameters.join(", ")) };
-            let _ =
-                writeln!(text, "  {:<26} {} ({}, {split}, {kind}{set})", scheme.id, scheme.book.title, scheme.split);
+            let _ = writeln!(
+                text,
+                "  {:<26} {} ({}, {split}, {kind}{set})",
+                scheme.id,
+                scheme.book.title,
+                scheme.split_in_words()
+            );
         }
     }
     text.push_str(

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use eigenring::analysis::limit::{LimitSurface, Limits, NoLimit};
 use eigenring::analysis::local::MAX_VALENCE;
 use eigenring::mesh::io::{Coordinates, Output};
-use eigenring::mesh::{Connectivity, HalfEdgeMesh, Split};
+use eigenring::mesh::{Connectivity, HalfEdgeMesh};
 use eigenring::refine::{Coordinate, Counts, Level, NotRefinable, Obstacle, Refined, Refiner, Route};
 use eigenring::scheme::Scheme;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -127,7 +127,7 @@ impl Job {
         let mut at = Level { mesh: loaded.mesh, positions, tags: loaded.tags };
         let bar = progress(levels, Counts::of(&at.mesh).faces << (2 * levels as u32).min(100));
         // of the last step no mesh is needed, unless something is to be done with it
-        let receding = refiner.split() == Split::Dual && !at.mesh.is_closed();
+        let receding = !refiner.keeps_boundary() && !at.mesh.is_closed();
         let whole = to_limit || receding || !at.tags.is_empty();
         let whole_steps = if whole { levels } else { levels.saturating_sub(1) };
         for _ in 0..whole_steps {
@@ -137,7 +137,7 @@ impl Job {
         if to_limit {
             self.write_limit::<T>(scheme, &refiner, at, start, &bar)
         } else if whole_steps < levels {
-            let edges = Counts::of(&at.mesh).after(refiner.split()).edges;
+            let edges = refiner.counts_after(Counts::of(&at.mesh)).edges;
             let Refined { faces, positions } =
                 refiner.finish(at, Route::Fast).map_err(|wrong| refused(scheme, wrong))?;
             bar.finish_and_clear();
@@ -209,8 +209,8 @@ pub(crate) fn check_size<T: Coordinate>(
     let (mut needed, mut fits, mut made) = (most, 0, 0);
     let available = memory::available();
     while made < levels && counts.can_be_numbered() {
-        most = most.max(counts.bytes_of_step::<T>(refiner.split()));
-        counts = counts.after(refiner.split());
+        most = most.max(refiner.bytes_of_step::<T>(counts));
+        counts = refiner.counts_after(counts);
         made += 1;
         // of the last level a mesh is made, to be told about or pushed to the limit
         needed = most.max(counts.bytes_of_mesh::<T>()).max(limit_of(counts));

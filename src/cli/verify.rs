@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use eigenring::analysis::boundary::MAX_FACES;
 use eigenring::analysis::places::Place;
 use eigenring::analysis::verify::{Check, Levels, NORMAL, POSITION, Verifier};
-use eigenring::mesh::{Connectivity, FanKind, HalfEdgeMesh, PolygonSoup, Split, Tags, shapes};
+use eigenring::mesh::{Connectivity, FanKind, HalfEdgeMesh, PolygonSoup, Tags, shapes};
 use eigenring::refine::{Level, Refiner};
 use eigenring::scheme::Scheme;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -106,7 +106,7 @@ impl Verify {
     /// Inside, and where there are boundary rules, on boundaries, at corners and at darts.
     fn places(&self, refiner: &Refiner, valences: &[usize], own: Option<Vec<usize>>) -> Vec<Place> {
         let mut places: Vec<Place> = valences.iter().map(|n| Place::Inside(*n)).collect();
-        if refiner.boundary().is_none() || refiner.split() == Split::Dual {
+        if refiner.boundary().is_none() || !refiner.keeps_boundary() {
             return places;
         }
         let asked = self.boundary_faces.as_ref().map(|list| list.0.clone());
@@ -166,7 +166,7 @@ fn shapes_for(refiner: &Refiner) -> Result<Vec<(String, Level<f64>)>, Failure> {
     if polygons {
         list.push(("a pentagonal prism", shapes::prism(5)));
     }
-    if refiner.boundary().is_some() && refiner.split() != Split::Dual {
+    if refiner.boundary().is_some() && refiner.keeps_boundary() {
         list.push(("an open tube", shapes::tube(3, 5, triangles)));
         list.push(("a disc", shapes::disc(5, triangles)));
     }

@@ -6,7 +6,7 @@
 //! with nothing beyond it: a vertex on a crease inside a mesh has such a half-disc on either side. At a *dart* it is the whole disc of
 //! n sectors, and a crease runs along spoke 0 and ends at the centre.
 
-use super::{Canonical, Connectivity, Label, Lattice, PatchEdge, Site};
+use super::{Canonical, Connectivity, Label, Lattice, PatchEdge, Placement, Site};
 
 /// What kind of vertex the centre is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -118,9 +118,9 @@ impl Fan {
         Label { sector: self.shifted(self.sectors, -(label.sector as i32) - shift), i, j }
     }
 
-    /// Where a step of the scheme's split puts the point `label` of the refined fan, as on the patch.
-    pub fn birth(&self, label: Label) -> Site {
-        self.lattice.birth(label)
+    /// Where a split puts the point `label` of the refined fan, as on the patch; one that turns the lattice has no fans.
+    pub fn birth(&self, placement: &Placement, label: Label) -> Site {
+        placement.birth(label).1
     }
 
     /// The half-edge that leaves the centre along a spoke.
@@ -150,8 +150,12 @@ impl Canonical for Fan {
         Fan::point(self, sector, i, j)
     }
 
-    fn birth(&self, label: Label) -> Site {
-        Fan::birth(self, label)
+    fn birth(&self, placement: &Placement, label: Label) -> Site {
+        Fan::birth(self, placement, label)
+    }
+
+    fn on(&self, lattice: Lattice) -> Self {
+        Fan { lattice, ..*self }
     }
 
     fn is_clear(&self, Label { sector, i, j }: Label, of_centre: i32, of_crease: i32) -> bool {
@@ -211,6 +215,7 @@ impl Connectivity for Fan {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::Split;
     use std::collections::BTreeSet;
 
     const KINDS: [FanKind; 9] = [
@@ -311,13 +316,15 @@ mod tests {
     #[test]
     fn vertices_keep_their_place_on_the_finer_fan() {
         for fan in fans() {
+            let split = if fan.lattice() == Lattice::Triangles { Split::OneToFour } else { Split::OneToN };
+            let placement = Placement::of(split, fan.lattice(), true).unwrap();
             for edge in edges(&fan, 2) {
                 let Label { sector, i, j } = fan.origin(edge);
                 let doubled = Label { sector, i: 2 * i, j: 2 * j };
-                let Site::Vertex(born) = fan.birth(doubled) else { panic!("{fan:?} {doubled:?}") };
+                let Site::Vertex(born) = fan.birth(&placement, doubled) else { panic!("{fan:?} {doubled:?}") };
                 assert_eq!(fan.origin(born), fan.origin(edge));
                 let midpoint = fan.target(PatchEdge { origin: doubled, direction: edge.direction });
-                let Site::Edge(born) = fan.birth(midpoint) else { panic!("{fan:?} {midpoint:?}") };
+                let Site::Edge(born) = fan.birth(&placement, midpoint) else { panic!("{fan:?} {midpoint:?}") };
                 assert!(born == edge || fan.twin(born) == edge, "{fan:?} {edge:?} {born:?}");
             }
         }

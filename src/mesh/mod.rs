@@ -12,6 +12,7 @@ pub mod io;
 mod linked;
 mod pairing;
 mod patch;
+mod placement;
 mod repair;
 pub mod shapes;
 mod soup;
@@ -25,9 +26,10 @@ pub use half_edge::{HalfEdgeMesh, MAX_CORNERS, NONE};
 pub use linked::{LinkedMesh, NoCut};
 pub use pairing::NotAMesh;
 pub use patch::{Canonical, Label, Lattice, Patch, PatchEdge, Site};
+pub use placement::{Cycle, Placement, Turn};
 pub use repair::{Dropped, Repair, drop_isolated, split_non_manifold};
 pub use soup::{Crease, PolygonSoup};
-pub use split::{Birth, Numbering, Split};
+pub use split::{Becoming, Birth, Centre, Numbering, Split};
 pub use tags::{BadTag, Tagged, Tags, edge_between, first_corner};
 
 /// A mesh seen through its half-edges. The half-edge h leaves `origin(h)` along an edge; the face to its left is its own.

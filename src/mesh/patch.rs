@@ -6,7 +6,7 @@
 //! centre is a face with n corners: (i, j) lies i and j edges beyond its corner s (i, j >= 0). Labels are unfolded into
 //! the neighbouring sector where they leave their own.
 
-use super::Connectivity;
+use super::{Connectivity, Placement};
 
 /// The three regular lattices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,33 +95,6 @@ impl Lattice {
         let back = (i64::from(direction) + directions / 2 - i64::from(shift)).rem_euclid(directions) as u32;
         PatchEdge { origin: Label { sector: shifted(origin.sector, shift), i, j }, direction: back }
     }
-
-    /// Where the step of a split on this lattice puts the point `label` of the refined patch.
-    pub(super) fn birth(self, label: Label) -> Site {
-        let Label { sector, i, j } = label;
-        if self.is_centre(label) {
-            return Site::Vertex(PatchEdge { origin: label, direction: 0 });
-        }
-        let from = |i: i32, j: i32, direction: u32| PatchEdge { origin: Label { sector, i, j }, direction };
-        match (self, i % 2 != 0, j % 2 != 0) {
-            (Lattice::Dual, odd_i, odd_j) => {
-                let direction = match (odd_i, odd_j) {
-                    (true, true) => 0,
-                    (false, true) => 1,
-                    (false, false) => 2,
-                    (true, false) => 3,
-                };
-                Site::Corner(from(i / 2, j / 2, direction))
-            }
-            (_, false, false) => Site::Vertex(from(i / 2, j / 2, 0)),
-            (Lattice::Triangles, true, false) => Site::Edge(from((i + 1) / 2, j / 2, 3)),
-            (Lattice::Triangles, false, true) => Site::Edge(from(i / 2, (j + 1) / 2, 4)),
-            (Lattice::Triangles, true, true) => Site::Edge(from((i + 1) / 2, (j - 1) / 2, 2)),
-            (Lattice::Quads, true, false) => Site::Edge(from((i + 1) / 2, j / 2, 2)),
-            (Lattice::Quads, false, true) => Site::Edge(from(i / 2, (j + 1) / 2, 3)),
-            (Lattice::Quads, true, true) => Site::Face(from((i + 1) / 2, (j + 1) / 2, 2)),
-        }
-    }
 }
 
 /// A point of the patch.
@@ -163,13 +136,28 @@ pub enum Site {
     Corner(PatchEdge),
 }
 
+impl Site {
+    /// The same told by another half-edge.
+    #[must_use]
+    pub(super) fn mapped(self, f: impl FnOnce(PatchEdge) -> PatchEdge) -> Site {
+        match self {
+            Site::Vertex(edge) => Site::Vertex(f(edge)),
+            Site::Edge(edge) => Site::Edge(f(edge)),
+            Site::Face(edge) => Site::Face(f(edge)),
+            Site::Corner(edge) => Site::Corner(f(edge)),
+        }
+    }
+}
+
 /// A mesh that is arithmetic on labels, around one vertex or face.
 pub trait Canonical: Connectivity<Edge = PatchEdge, Point = Label> {
     /// The point at coordinates (i, j) of a sector, which may reach into the sectors beside it.
     fn point(&self, sector: u32, i: i32, j: i32) -> Label;
-    /// Where the step of the scheme's split puts the point `label` of the refined mesh: vertices keep their place on the
-    /// lattice twice as fine, new points fill it.
-    fn birth(&self, label: Label) -> Site;
+    /// Where a split puts the point `label` of the refined mesh.
+    fn birth(&self, placement: &Placement, label: Label) -> Site;
+    /// The same around the centre, on another lattice.
+    #[must_use]
+    fn on(&self, lattice: Lattice) -> Self;
     /// Whether a point is as far from the centre and from every crease as said, in edges.
     fn is_clear(&self, label: Label, of_centre: i32, of_crease: i32) -> bool;
 }
@@ -179,8 +167,12 @@ impl Canonical for Patch {
         Patch::point(self, sector, i, j)
     }
 
-    fn birth(&self, label: Label) -> Site {
-        Patch::birth(self, label)
+    fn birth(&self, placement: &Placement, label: Label) -> Site {
+        Patch::birth(self, placement, label)
+    }
+
+    fn on(&self, lattice: Lattice) -> Self {
+        Patch { lattice, ..*self }
     }
 
     fn is_clear(&self, label: Label, of_centre: i32, _: i32) -> bool {
@@ -236,7 +228,7 @@ impl Patch {
 
     /// The point turned by a number of sectors.
     pub fn rotated(&self, label: Label, sectors: i32) -> Label {
-        if self.is_centre(label) { label } else { Label { sector: self.shifted(label.sector, sectors), ..label } }
+        self.moved(label, sectors)
     }
 
     /// The half-edge that leaves a point in a direction of its sector's coordinates, or along a spoke of the centre.
@@ -244,10 +236,14 @@ impl Patch {
         PatchEdge { origin, direction }
     }
 
-    /// Where the step of the scheme's split puts the point `label` of the refined patch: vertices keep their place on the
-    /// lattice twice as fine, new points fill it.
-    pub fn birth(&self, label: Label) -> Site {
-        self.lattice.birth(label)
+    /// Where a split puts the point `label` of the refined patch.
+    pub fn birth(&self, placement: &Placement, label: Label) -> Site {
+        let (shift, site) = placement.birth(label);
+        site.mapped(|edge| PatchEdge { origin: self.moved(edge.origin, shift), ..edge })
+    }
+
+    fn moved(&self, label: Label, sectors: i32) -> Label {
+        if self.is_centre(label) { label } else { Label { sector: self.shifted(label.sector, sectors), ..label } }
     }
 }
 
@@ -366,10 +362,11 @@ mod tests {
     #[test]
     fn a_new_point_lies_between_the_points_of_its_birth_place() {
         let patch = Patch::new(Lattice::Quads, 5);
+        let placement = Placement::of(crate::mesh::Split::OneToN, Lattice::Quads, true).unwrap();
         let double = |label: Label| patch.point(label.sector, 2 * label.i, 2 * label.j);
         for edge in edges(patch) {
             let fine = patch.origin(edge);
-            match patch.birth(fine) {
+            match patch.birth(&placement, fine) {
                 Site::Vertex(at) => assert_eq!(double(patch.origin(at)), fine),
                 Site::Edge(at) => {
                     let (a, b) = (double(patch.origin(at)), double(patch.target(at)));

@@ -4,14 +4,15 @@
 //! times the other. A vertex follows the rule for all its creases as far as those that end within this step last, by the mean of their
 //! sharpness, and the rule without them for the rest (DeRose, Kass and Truong 1998, with the mean taken over the creases that end).
 
-use super::{Obstacle, Refinement, Row, add_scaled, collected};
+use super::pass::{add_scaled, collected};
+use super::{Obstacle, Pass, Row};
 use crate::mesh::{Birth, Connectivity, HalfEdgeMesh, Tagged, Tags, first_corner};
 
-impl Refinement<'_, f64> {
+impl Pass<'_, f64> {
     /// The row of a point born on a mesh with tags.
     ///
     /// # Errors
-    /// As [`Refinement::row_at`].
+    /// As [`Pass::row_at`].
     pub fn row_of_birth(&self, mesh: &HalfEdgeMesh, tags: &Tags, birth: Birth) -> Result<Row<u32, f64>, Obstacle> {
         let seen = |beyond: f64| Tagged { mesh, tags, beyond };
         let lasting = match birth {

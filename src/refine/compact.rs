@@ -4,8 +4,9 @@
 //! points around it; at an edge its ends, the vertices across, the other vertices of its quads, the new face points beside it; at a
 //! face its corners; at a corner any weights of the face's corners. All else goes the general way.
 
+use super::Pass;
 use super::gather::{AtEdge, AtVertex, Coordinate};
-use super::{Refinement, Terms};
+use super::pass::{Term, Terms};
 use crate::scheme::vocabulary::{Arrival, Move, RuleKind};
 use std::collections::BTreeSet;
 
@@ -32,19 +33,22 @@ const NEW_FACE: Class = (&[], Arrival::NewFace);
 
 impl<T: Coordinate> Compact<T> {
     /// The tables, where every rule of the scheme inside the mesh is compact; that of faces for these sizes.
-    pub(super) fn of(refinement: &Refinement<f64>, sizes: &BTreeSet<usize>) -> Option<Compact<T>> {
-        let rules = &refinement.scheme().book.rules;
+    pub(super) fn of(pass: &Pass<f64>, sizes: &BTreeSet<usize>) -> Option<Compact<T>> {
+        let rules = pass.rules();
+        if !pass.is_gathered() {
+            return None;
+        }
         let has = |kind| rules.contains_key(&kind);
         if has(RuleKind::EdgeFromIrregularEnd) {
             return None;
         }
-        let edge = if has(RuleKind::Edge) { at_edge(refinement)? } else { AtEdge::default() };
-        let vertex: Vec<_> = (0..=TABLE).map(|n| at_vertex(refinement, n)).collect();
+        let edge = if has(RuleKind::Edge) { at_edge(pass)? } else { AtEdge::default() };
+        let vertex: Vec<_> = (0..=TABLE).map(|n| at_vertex(pass, n)).collect();
         let largest = sizes.last().copied().unwrap_or(4).max(4);
         let wanted = |n: &usize| *n == 4 || sizes.contains(n);
-        let face: Vec<_> = (0..=largest).map(|n| Some(n).filter(wanted).and_then(|n| at_face(refinement, n))).collect();
-        let corner: Vec<_> = (0..=TABLE).map(|n| at_corner(refinement, n)).collect();
-        let regular = refinement.scheme().regular_valence();
+        let face: Vec<_> = (0..=largest).map(|n| Some(n).filter(wanted).and_then(|n| at_face(pass, n))).collect();
+        let corner: Vec<_> = (0..=TABLE).map(|n| at_corner(pass, n)).collect();
+        let regular = pass.scheme().regular_valence();
         let missing = (has(RuleKind::Vertex) && vertex[regular].is_none())
             || (has(RuleKind::Face) && face[4].is_none())
             || (has(RuleKind::Corner) && corner[4].is_none());
@@ -53,11 +57,11 @@ impl<T: Coordinate> Compact<T> {
 }
 
 /// The weights of the terms of a rule, class by class: `None` when a term is of no class, or the points of a class differ.
-fn by_class<const N: usize>(terms: &[super::Term<f64>], classes: [(Class, usize); N]) -> Option<[f64; N]> {
+fn by_class<const N: usize>(terms: &[Term<f64>], classes: [(Class, usize); N]) -> Option<[f64; N]> {
     let mut weights = [0.0; N];
     let mut counted = 0;
     for (index, (class, size)) in classes.iter().enumerate() {
-        let of_class = |term: &&super::Term<f64>| match term.walk.ways.as_slice() {
+        let of_class = |term: &&Term<f64>| match term.walk.ways.as_slice() {
             [way] => (way.as_slice(), term.walk.arrival) == *class,
             _ => false,
         };
@@ -75,20 +79,20 @@ fn by_class<const N: usize>(terms: &[super::Term<f64>], classes: [(Class, usize)
 }
 
 /// The terms of a rule, where its scheme has it and the count is one of a mesh.
-fn told<'a>(refinement: &Refinement<'a, f64>, kind: RuleKind, n: usize, least: usize) -> Option<Terms<'a, f64>> {
-    if n < least { None } else { refinement.terms(kind, n).ok() }
+fn told<'a>(pass: &Pass<'a, f64>, kind: RuleKind, n: usize, least: usize) -> Option<Terms<'a, f64>> {
+    if n < least { None } else { pass.terms(kind, n).ok() }
 }
 
-fn at_vertex<T: Coordinate>(refinement: &Refinement<f64>, n: usize) -> Option<AtVertex<T>> {
-    let terms = told(refinement, RuleKind::Vertex, n, 2)?;
+fn at_vertex<T: Coordinate>(pass: &Pass<f64>, n: usize) -> Option<AtVertex<T>> {
+    let terms = told(pass, RuleKind::Vertex, n, 2)?;
     let classes = [(CENTRE, 1), (RING, n), (ACROSS, n), (NEW_FACE, n)];
     let [centre, ring, diagonals, faces] = by_class(&terms, classes)?.map(T::from_f64);
     Some(AtVertex { centre, ring, diagonals, faces })
 }
 
-fn at_edge<T: Coordinate>(refinement: &Refinement<f64>) -> Option<AtEdge<T>> {
-    let terms = refinement.terms(RuleKind::Edge, 0).ok()?;
-    let triangles = refinement.scheme().mesh == "triangles";
+fn at_edge<T: Coordinate>(pass: &Pass<f64>) -> Option<AtEdge<T>> {
+    let terms = pass.terms(RuleKind::Edge, 0).ok()?;
+    let triangles = pass.scheme().mesh == "triangles";
     let classes = [(CENTRE, 2), (ACROSS, 2), (BEFORE, 2), (NEW_FACE, 2)];
     let [ends, across, before, faces] = by_class(&terms, classes)?;
     // on triangles the vertex across is the one before; on quads both others must count alike
@@ -100,14 +104,14 @@ fn at_edge<T: Coordinate>(refinement: &Refinement<f64>) -> Option<AtEdge<T>> {
     Some(AtEdge { ends, opposite, sides, faces })
 }
 
-fn at_face<T: Coordinate>(refinement: &Refinement<f64>, n: usize) -> Option<T> {
-    let terms = told(refinement, RuleKind::Face, n, 3)?;
+fn at_face<T: Coordinate>(pass: &Pass<f64>, n: usize) -> Option<T> {
+    let terms = told(pass, RuleKind::Face, n, 3)?;
     let [corners] = by_class(&terms, [(CENTRE, n)])?;
     Some(T::from_f64(corners))
 }
 
-fn at_corner<T: Coordinate>(refinement: &Refinement<f64>, n: usize) -> Option<Vec<T>> {
-    let terms = told(refinement, RuleKind::Corner, n, 3)?;
+fn at_corner<T: Coordinate>(pass: &Pass<f64>, n: usize) -> Option<Vec<T>> {
+    let terms = told(pass, RuleKind::Corner, n, 3)?;
     let mut weights = vec![0.0; n];
     for term in terms.iter() {
         let own = matches!(term.walk.ways.as_slice(), [way] if way.is_empty()) && term.walk.arrival == Arrival::Origin;

@@ -6,6 +6,7 @@
 
 use super::{Obstacle, Weigher};
 use crate::fault::Fault;
+use crate::mesh::Lattice;
 use crate::numbers::{Field, Laurent, Number, PerFrequency, RingWorld, Trouble, World};
 use crate::scheme::vocabulary::RuleKind;
 use crate::scheme::{Entry, Pick, Place, Placed, RuleBook, Weights};
@@ -35,8 +36,6 @@ pub struct ExactWeights<'w, W: World> {
     count: Count<W::Value>,
     /// The count that tells the centre from other places.
     centre: usize,
-    /// Whether the centre is a face.
-    dual: bool,
     /// The largest n at which frequencies of a ring fall together, as far as rings have been met.
     aliases: Rc<Cell<usize>>,
 }
@@ -44,23 +43,24 @@ pub struct ExactWeights<'w, W: World> {
 impl<'w, W: World> ExactWeights<'w, W> {
     /// Weights around a centre with `centre` sectors on the patch; other places of the same count must not be there. `aliases`
     /// takes down the largest n at which frequencies fall together.
-    pub fn new(world: &'w W, count: Count<W::Value>, centre: usize, dual: bool, aliases: Rc<Cell<usize>>) -> Self {
-        ExactWeights { world, count, centre, dual, aliases }
+    pub fn new(world: &'w W, count: Count<W::Value>, centre: usize, aliases: Rc<Cell<usize>>) -> Self {
+        ExactWeights { world, count, centre, aliases }
     }
 
-    fn is_central(&self, kind: RuleKind, count: usize) -> bool {
+    /// Whether the rule is told around the centre: a vertex, or on the dual lattice a face.
+    fn is_central(&self, kind: RuleKind, count: usize, on: Lattice) -> bool {
         let told_there = match kind {
-            RuleKind::Vertex | RuleKind::EdgeFromIrregularEnd => !self.dual,
-            RuleKind::Corner | RuleKind::Face => self.dual,
+            RuleKind::Vertex | RuleKind::EdgeFromIrregularEnd => on.has_centre(),
+            RuleKind::Corner | RuleKind::Face => !on.has_centre(),
             _ => false,
         };
         told_there && count == self.centre
     }
 
     /// Where formulas are evaluated: n stays a name where it is free.
-    fn place(&self, kind: RuleKind, count: usize) -> Place<Laurent> {
+    fn place(&self, kind: RuleKind, count: usize, central: bool) -> Place<Laurent> {
         match &self.count {
-            Count::Free { like, .. } if self.is_central(kind, count) => {
+            Count::Free { like, .. } if central => {
                 Place { value: Laurent::atom("n"), ..Place::at(kind.variable(), *like as i64) }
             }
             _ => Place::at(kind.variable(), count as i64),
@@ -145,7 +145,7 @@ impl<'w, W: World> ExactWeights<'w, W> {
 pub struct EnclosedWeights;
 
 impl<F: Number> Weigher<PerFrequency<F>> for EnclosedWeights {
-    fn weights(&self, book: &RuleBook, entry: &Entry, kind: RuleKind, count: usize) -> Weighed<F> {
+    fn weights(&self, book: &RuleBook, entry: &Entry, kind: RuleKind, count: usize, _: Lattice) -> Weighed<F> {
         let place = Place::<F>::at(kind.variable(), count as i64);
         let size = crate::scheme::class_size(entry, kind, count as i64);
         let weights = book.weights(entry, size, &place).map_err(no_exact_form)?;
@@ -182,11 +182,12 @@ fn told(trouble: Trouble, span: std::ops::Range<usize>, place: &Place<Laurent>) 
 }
 
 impl<W: World> Weigher<PerFrequency<W::Value>> for ExactWeights<'_, W> {
-    fn weights(&self, book: &RuleBook, entry: &Entry, kind: RuleKind, count: usize) -> Weighed<W::Value> {
-        let place = self.place(kind, count);
+    fn weights(&self, book: &RuleBook, entry: &Entry, kind: RuleKind, count: usize, on: Lattice) -> Weighed<W::Value> {
+        let central = self.is_central(kind, count, on);
+        let place = self.place(kind, count, central);
         let size = crate::scheme::class_size(entry, kind, count as i64);
         let free = matches!(self.count, Count::Free { .. });
-        if !self.is_central(kind, count) || entry.position.once {
+        if !central || entry.position.once {
             return self.listed(book, entry, size, &place);
         }
         match &entry.picks {

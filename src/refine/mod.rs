@@ -9,6 +9,8 @@ mod exact_weights;
 mod gather;
 mod growth;
 mod names;
+mod pass;
+mod refiner;
 mod regular;
 mod stencil;
 mod steps;
@@ -18,18 +20,17 @@ pub use exact_weights::{Count, EnclosedWeights, ExactWeights};
 pub use gather::{Coordinate, Point};
 pub use growth::Counts;
 pub use names::OrbitNames;
+pub use pass::{Pass, Weigher};
+pub use refiner::{Chain, Refiner};
 pub use regular::{CanonicalRows, FanRows, PatchRows, RegularStencils};
 pub use stencil::Use;
-pub use steps::{Buffers, Level, NotRefinable, Refined, Refiner, Route, applied, most_ulps};
+pub use steps::{Buffers, Level, NotRefinable, Refined, Route, applied, most_ulps};
 pub use symmetry::check_symmetry;
 
 use crate::fault::{Fault, Faults};
-use crate::mesh::{Connectivity, Lattice, Site};
+use crate::mesh::{Canonical, Cycle, Label, Lattice, Placement, Split};
 use crate::numbers::{Field, Number, Trouble};
-use crate::scheme::vocabulary::{Arrival, Move, RuleKind, Walk};
-use crate::scheme::{Entry, Place, Rule, RuleBook, RuleSum, Scheme};
-use std::cell::RefCell;
-use std::collections::HashMap;
+use crate::scheme::{PassRules, RuleBook, RuleSum, Scheme};
 use std::fmt;
 use std::rc::Rc;
 
@@ -97,81 +98,69 @@ pub fn check(scheme: &Scheme, valences: &[usize]) -> Result<Vec<RuleSum>, Faults
     }
 }
 
-/// The regular lattice that a scheme's split lives on.
+/// How the splits of a scheme bring its regular lattice back to itself.
+///
+/// # Errors
+/// When there is no topology for a split, or the lattice does not come back, or is not refined.
+pub fn cycle_of(scheme: &Scheme) -> Result<Cycle, Obstacle> {
+    let named = |pass: &PassRules| {
+        Split::named(pass.split).ok_or_else(|| Obstacle::Limit(format!("the split {} can't be applied", pass.split)))
+    };
+    let splits: Vec<Split> = scheme.passes().iter().map(named).collect::<Result<_, _>>()?;
+    Cycle::of(&splits, scheme.mesh == "triangles").ok_or_else(|| {
+        let words = "these splits do not refine the regular lattice and bring it back to itself";
+        Obstacle::Limit(format!("{words}: {}", scheme.split_in_words()))
+    })
+}
+
+/// The regular lattice that a scheme lives on; triangles or quads where there is none.
 pub fn lattice_of(scheme: &Scheme) -> Lattice {
-    match (scheme.is_dual(), scheme.mesh.as_str()) {
-        (true, _) => Lattice::Dual,
-        (false, "triangles") => Lattice::Triangles,
-        (false, _) => Lattice::Quads,
-    }
+    let plain = if scheme.mesh == "triangles" { Lattice::Triangles } else { Lattice::Quads };
+    cycle_of(scheme).map_or(plain, |cycle| cycle.lattice())
 }
 
-/// A weight of a rule: the half-edge around its place to start from, the walk, the weight.
-struct Term<'a, W> {
-    start: usize,
-    walk: &'a Walk,
-    weight: W,
+/// Whether the extraordinary points of a scheme are faces: those of dual schemes.
+pub fn is_dual(scheme: &Scheme) -> bool {
+    !lattice_of(scheme).has_centre()
 }
 
-/// The terms of a rule at one count.
-type Terms<'a, W> = Rc<Vec<Term<'a, W>>>;
-
-/// What the weights of a rule are, in a world of numbers.
-pub trait Weigher<W> {
-    /// The points of a rule's entry, as indices into its class, with their weights, where the rule's count is `count`.
-    ///
-    /// # Errors
-    /// When a weight has no value in this world.
-    fn weights(
-        &self,
-        book: &RuleBook,
-        entry: &Entry,
-        kind: RuleKind,
-        count: usize,
-    ) -> Result<Vec<(usize, W)>, Obstacle>;
-}
-
-/// The weights are the values of the formulas, point by point.
-struct ByFormula;
-
-impl<W: Number> Weigher<W> for ByFormula {
-    fn weights(
-        &self,
-        book: &RuleBook,
-        entry: &Entry,
-        kind: RuleKind,
-        count: usize,
-    ) -> Result<Vec<(usize, W)>, Obstacle> {
-        let place = Place::<W>::at(kind.variable(), count as i64);
-        let size = crate::scheme::class_size(entry, kind, count as i64);
-        Ok(book.weights(entry, size, &place)?)
-    }
-}
-
-/// A scheme's rules in one world of numbers, ready to be applied to a mesh.
+/// A scheme's rules in one world of numbers, ready to be applied to the canonical patch: the passes of as many steps as bring the
+/// lattice back to itself.
 pub struct Refinement<'a, W> {
     scheme: &'a Scheme,
-    boundary: Option<&'a RuleBook>,
-    weigher: Box<dyn Weigher<W> + 'a>,
-    terms: RefCell<HashMap<(RuleKind, usize), Terms<'a, W>>>,
+    passes: Vec<Pass<'a, W>>,
+    cycle: Result<Cycle, Obstacle>,
 }
 
 impl<'a, W: Number> Refinement<'a, W> {
     /// The scheme's rules, with those of a boundary file where there is one.
     pub fn new(scheme: &'a Scheme, boundary: Option<&'a RuleBook>) -> Self {
-        Refinement { boundary, ..Refinement::weighed(scheme, ByFormula) }
+        let refinement = Refinement::weighed(scheme, pass::ByFormula);
+        match boundary {
+            Some(book) => refinement.with_boundary(book),
+            None => refinement,
+        }
     }
 }
 
 impl<'a, W: Field> Refinement<'a, W> {
     /// The scheme's rules, with weights from elsewhere than its formulas alone.
     pub fn weighed(scheme: &'a Scheme, weigher: impl Weigher<W> + 'a) -> Self {
-        Refinement { scheme, boundary: None, weigher: Box::new(weigher), terms: RefCell::new(HashMap::new()) }
+        let cycle = cycle_of(scheme);
+        let weigher: Rc<dyn Weigher<W> + 'a> = Rc::new(weigher);
+        let told = scheme.passes();
+        let placements = cycle.as_ref().map_or(&[][..], |cycle| &cycle.placements);
+        let passes = told.iter().cycle().zip(placements);
+        let pass = |(told, placement): (&PassRules<'a>, &Placement)| {
+            Pass::weighed(scheme, *told, Rc::clone(&weigher)).on(placement.from)
+        };
+        Refinement { scheme, passes: passes.map(pass).collect(), cycle }
     }
 
     /// The same with the rules of a boundary file.
     pub fn with_boundary(self, book: &'a RuleBook) -> Self {
-        Refinement { boundary: Some(book), ..self }
+        let passes = self.passes.into_iter().map(|pass| pass.with_boundary(book)).collect();
+        Refinement { passes, ..self }
     }
 
     /// The scheme that is refined with.
@@ -179,236 +168,40 @@ impl<'a, W: Field> Refinement<'a, W> {
         self.scheme
     }
 
-    /// The row of the point that is born at a site of the patch.
+    /// How its splits bring the lattice back to itself.
     ///
     /// # Errors
-    /// When a weight has no value, or the rule reaches over a boundary.
-    pub fn row_at<M>(&self, mesh: &M, site: Site) -> Result<Row<M::Point, W>, Obstacle>
-    where
-        M: Connectivity<Edge = crate::mesh::PatchEdge>,
-    {
-        match site {
-            Site::Vertex(edge) => self.vertex_row(mesh, edge),
-            Site::Edge(edge) => self.edge_row(mesh, edge),
-            Site::Face(edge) => self.face_row(mesh, edge),
-            Site::Corner(edge) => self.corner_row(mesh, edge),
-        }
+    /// As [`cycle_of`].
+    pub fn cycle(&self) -> Result<&Cycle, Obstacle> {
+        self.cycle.as_ref().map_err(Clone::clone)
     }
 
-    /// The row of the point that replaces the origin of `edge`: by the rule `[vertex]` where at most one crease ends there, by
-    /// `[vertex.crease]`, told around one side, where one passes through, by `[vertex.corner]` where three or more meet or the
-    /// vertex is tagged so. A boundary is a crease with nothing beyond it.
+    /// Its passes, those of all steps of the cycle.
+    pub fn passes(&self) -> &[Pass<'a, W>] {
+        &self.passes
+    }
+
+    /// The row of the point `label` of the refined patch: how it is made of the points of the coarse one, through all passes.
     ///
     /// # Errors
-    /// As [`Refinement::row_at`].
-    pub fn vertex_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
-        let sharp = mesh.sharp_spokes(edge);
-        if mesh.is_corner(edge) || sharp.len() > 2 {
-            return self.apply(mesh, RuleKind::VertexCorner, 0, &[edge]);
-        }
-        let first = sharp.iter().find(|spoke| sharp.len() == 2 && mesh.has_face(**spoke));
-        let Some(first) = first else {
-            return self.apply(mesh, RuleKind::Vertex, mesh.valence(edge), &mesh.around_vertex(edge));
-        };
-        // the spokes of one side, from one crease edge to the other
-        let mut spokes = mesh.around_vertex(*first);
-        let faces = spokes.iter().skip(1).position(|spoke| mesh.is_sharp(*spoke)).map_or(0, |last| last + 1);
-        spokes.truncate(faces + 1);
-        self.apply(mesh, RuleKind::VertexCrease, faces, &spokes)
-    }
-
-    /// The row of the new point on an edge. A rule told from an irregular end is applied from each such end, and the results
-    /// are averaged.
-    ///
-    /// # Errors
-    /// As [`Refinement::row_at`].
-    pub fn edge_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
-        let halves = [edge, mesh.twin(edge)];
-        if mesh.is_sharp(edge) {
-            return self.apply(mesh, RuleKind::EdgeCrease, 0, &halves);
-        }
-        if self.scheme.book.rules.contains_key(&RuleKind::EdgeFromIrregularEnd) {
-            let regular = self.scheme.regular_valence();
-            let irregular = |half: &&M::Edge| mesh.valence(**half) != regular && mesh.sharp_spokes(**half).len() < 2;
-            let ends: Vec<M::Edge> = halves.iter().filter(irregular).copied().collect();
-            if !ends.is_empty() {
-                return self.mean_from_ends(mesh, &ends);
-            }
-        }
-        self.apply(mesh, RuleKind::Edge, 0, &halves)
-    }
-
-    fn mean_from_ends<M: Connectivity>(&self, mesh: &M, ends: &[M::Edge]) -> Result<Row<M::Point, W>, Obstacle> {
-        let share = W::whole(1).over(&W::whole(ends.len() as i64))?;
-        let mut sum = Vec::new();
-        for end in ends {
-            let spokes = mesh.around_vertex(*end);
-            let row = self.apply(mesh, RuleKind::EdgeFromIrregularEnd, spokes.len(), &spokes)?;
-            add_scaled(&mut sum, &row, &share)?;
-        }
-        collected(sum)
-    }
-
-    /// The row of the new point in the face to the left of `edge`.
-    ///
-    /// # Errors
-    /// As [`Refinement::row_at`].
-    pub fn face_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
-        if !mesh.has_face(edge) {
-            return Err(Obstacle::Boundary(RuleKind::Face.name()));
-        }
-        let corners = mesh.around_face(edge);
-        self.apply(mesh, RuleKind::Face, corners.len(), &corners)
-    }
-
-    /// The row of the new point at the corner where `edge` leaves its origin, in the face to its left.
-    ///
-    /// # Errors
-    /// As [`Refinement::row_at`].
-    pub fn corner_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
-        if !mesh.has_face(edge) {
-            return Err(Obstacle::Boundary(RuleKind::Corner.name()));
-        }
-        let corners = mesh.around_face(edge);
-        self.apply(mesh, RuleKind::Corner, corners.len(), &corners)
-    }
-
-    fn apply<M: Connectivity>(
-        &self,
-        mesh: &M,
-        kind: RuleKind,
-        count: usize,
-        starts: &[M::Edge],
-    ) -> Result<Row<M::Point, W>, Obstacle> {
-        let mut sum = Vec::new();
-        for term in self.terms(kind, count)?.iter() {
-            for (edge, halvings) in self.walk(mesh, starts[term.start], term.walk, kind)? {
-                let weight = (0..halvings).try_fold(term.weight.clone(), |weight, _| weight.over(&W::whole(2)))?;
-                match term.walk.arrival {
-                    Arrival::Origin => sum.push((mesh.origin(edge), weight)),
-                    Arrival::Target => sum.push((mesh.target(edge), weight)),
-                    Arrival::NewFace => add_scaled(&mut sum, &self.face_row(mesh, edge)?, &weight)?,
-                    Arrival::NewEdge => add_scaled(&mut sum, &self.edge_row(mesh, edge)?, &weight)?,
-                }
-            }
-        }
-        collected(sum)
-    }
-
-    fn rule(&self, kind: RuleKind) -> Result<(&'a RuleBook, &'a Rule), Obstacle> {
-        let book = if kind.is_boundary() { self.boundary } else { Some(&self.scheme.book) };
-        let rule = book.and_then(|book| Some((book, book.rules.get(&kind)?)));
-        rule.ok_or(Obstacle::NoRule(kind.name()))
-    }
-
-    fn terms(&self, kind: RuleKind, count: usize) -> Result<Terms<'a, W>, Obstacle> {
-        if let Some(terms) = self.terms.borrow().get(&(kind, count)) {
-            return Ok(Rc::clone(terms));
-        }
-        let (book, rule) = self.rule(kind)?;
-        let mut terms = Vec::new();
-        for entry in &rule.entries {
-            let walks = &entry.position.walks;
-            for (index, weight) in self.weigher.weights(book, entry, kind, count)? {
-                terms.push(Term { start: index / walks.len(), walk: &walks[index % walks.len()], weight });
-            }
-        }
-        terms.retain(|term| !term.weight.is_certainly_zero());
-        let terms = Rc::new(terms);
-        self.terms.borrow_mut().insert((kind, count), Rc::clone(&terms));
-        Ok(terms)
-    }
-
-    /// Where a walk leads: half-edges, each with the number of times that the way to it has forked. A fork halves the weight.
-    fn walk<M: Connectivity>(
-        &self,
-        mesh: &M,
-        start: M::Edge,
-        walk: &Walk,
-        kind: RuleKind,
-    ) -> Result<Vec<(M::Edge, u32)>, Obstacle> {
-        let mut ends = Vec::with_capacity(walk.ways.len());
-        for way in &walk.ways {
-            let mut branches = vec![(start, walk.ways.len() as u32 - 1)];
-            for step in way {
-                self.step(mesh, &mut branches, *step, kind)?;
-            }
-            ends.extend(branches);
-        }
-        Ok(ends)
-    }
-
-    /// One move of every branch. Straight on over an irregular vertex is half of the regular number of turns, and either
-    /// way round will do: the branch forks, so that left and right stay alike. A turn to the left of straight on is counted
-    /// from the left, one to the right from the right.
-    fn step<M: Connectivity>(
-        &self,
-        mesh: &M,
-        branches: &mut Vec<(M::Edge, u32)>,
-        step: Move,
-        kind: RuleKind,
-    ) -> Result<(), Obstacle> {
-        let inside = |edge| if mesh.has_face(edge) { Ok(edge) } else { Err(Obstacle::Boundary(kind.name())) };
-        let over = |edge| {
-            let back = mesh.twin(edge);
-            if mesh.boundary_at(back).is_none() { Ok(back) } else { Err(Obstacle::Boundary(kind.name())) }
-        };
-        let half = self.scheme.regular_valence() / 2;
-        let turned = |edge, turns: usize| (0..turns).fold(edge, |edge, _| mesh.turn(edge));
-        let turned_back = |edge, turns: usize| (0..turns).fold(edge, |edge, _| mesh.turn_back(edge));
-        for index in 0..branches.len() {
-            let (at, forks) = branches[index];
-            branches[index].0 = match step {
-                Move::Next => mesh.next(inside(at)?),
-                Move::Prev => mesh.prev(inside(at)?),
-                Move::Twin => mesh.twin(at),
-                Move::Turn => mesh.turn(at),
-                Move::Left => turned_back(over(at)?, half - 1),
-                Move::Right => turned(over(at)?, half - 1),
-                Move::On => {
-                    let back = over(at)?;
-                    if mesh.valence(back) != 2 * half {
-                        branches[index].1 = forks + 1;
-                        branches.push((turned_back(back, half), forks + 1));
+    /// When a weight has no value, or a rule reaches over a boundary.
+    pub fn row<M: Canonical>(&self, mesh: &M, label: Label) -> Result<Row<Label, W>, Obstacle> {
+        let cycle = self.cycle()?;
+        let mut row = vec![(label, W::whole(1))];
+        for (pass, placement) in self.passes.iter().zip(&cycle.placements).rev() {
+            let mesh = mesh.on(placement.from);
+            let born = |label: Label| pass.row_at(&mesh, mesh.birth(placement, label));
+            row = match row.as_slice() {
+                [(only, weight)] if *weight == W::whole(1) => born(*only)?,
+                several => {
+                    let mut sum = Vec::new();
+                    for (label, weight) in several {
+                        pass::add_scaled(&mut sum, &born(*label)?, weight)?;
                     }
-                    turned(back, half)
+                    pass::collected(sum)?
                 }
             };
         }
-        if branches.len() > MOST_BRANCHES {
-            return Err(Obstacle::Limit(format!("a walk forks into more than {MOST_BRANCHES} at irregular vertices")));
-        }
-        Ok(())
-    }
-}
-
-/// The most branches of one walk.
-const MOST_BRANCHES: usize = 256;
-
-fn add_scaled<P: Copy, W: Field>(sum: &mut Vec<(P, W)>, row: &Row<P, W>, factor: &W) -> Result<(), Trouble> {
-    for (point, weight) in row {
-        sum.push((*point, weight.times(factor)?));
-    }
-    Ok(())
-}
-
-/// Weights that fall on one point add up.
-fn collected<P: Copy + Ord, W: Field>(mut sum: Vec<(P, W)>) -> Result<Row<P, W>, Obstacle> {
-    sum.sort_by_key(|(point, _)| *point);
-    let groups = sum.chunk_by(|(a, _), (b, _)| a == b);
-    let mut row: Row<P, W> = groups.map(|group| Ok((group[0].0, by_halves(group)?))).collect::<Result<_, Trouble>>()?;
-    row.retain(|(_, weight)| !weight.is_certainly_zero());
-    Ok(row)
-}
-
-/// A sum by halves: its rounding grows with the logarithm of the number of terms only.
-fn by_halves<P, W: Field>(terms: &[(P, W)]) -> Result<W, Trouble> {
-    match terms {
-        [] => Ok(W::whole(0)),
-        [(_, weight)] => Ok(weight.clone()),
-        _ => {
-            let (left, right) = terms.split_at(terms.len() / 2);
-            by_halves(left)?.plus(&by_halves(right)?)
-        }
+        Ok(row)
     }
 }

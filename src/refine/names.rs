@@ -25,9 +25,10 @@ impl OrbitNames {
             None => patch.edge(Label { sector: 0, i: 0, j: 0 }, 2),
         };
         let mut names = BTreeMap::new();
+        let Some(pass) = refinement.passes().first() else { return OrbitNames { names } };
         for position in Vocabulary::get().around(kind, Some(&refinement.scheme().mesh)) {
             for walk in position.walks.iter().filter(|_| !position.once) {
-                let Ok(branches) = refinement.walk(&patch, start, walk, kind) else { continue };
+                let Ok(branches) = pass.walk(&patch, start, walk, kind) else { continue };
                 let [(edge, _)] = branches[..] else { continue };
                 let point = match walk.arrival {
                     Arrival::Origin => crate::mesh::Connectivity::origin(&patch, edge),

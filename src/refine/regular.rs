@@ -1,6 +1,6 @@
 //! How are points made far from the centre of the canonical patch?
 //!
-//! By the same four stencils everywhere, one for each parity of the label. They are read off the rules once, at a place far
+//! By the same few stencils everywhere, one for each remainder of the label. They are read off the rules once, at a place far
 //! inside a sector, and applied by arithmetic; near the centre the rules themselves are walked.
 
 use super::{Obstacle, Refinement, Row};
@@ -12,11 +12,12 @@ use std::rc::Rc;
 /// The place that the stencils are read off, far from every sector's edge; more than twice the longest walk of a rule.
 const FAR: i32 = 64;
 
-/// The regular stencils: for each parity (i mod 2, j mod 2) of a new point's label, the old points that it is made of, as
-/// offsets from (i div 2, j div 2), with their weights.
+/// The regular stencils: for each remainder (i mod d, j mod d) of a new point's label, d being the dilation, the old points that it is made
+/// of, as offsets from (i div d, j div d), with their weights.
 #[derive(Clone, Debug)]
 pub struct RegularStencils {
-    by_parity: [Vec<((i32, i32), f64)>; 4],
+    by_remainder: Vec<Vec<((i32, i32), f64)>>,
+    dilation: i32,
     reach: i32,
 }
 
@@ -27,22 +28,28 @@ impl RegularStencils {
     /// When a weight has no value.
     pub fn of(refinement: &Refinement<f64>, lattice: Lattice) -> Result<Self, Obstacle> {
         let patch = Patch::new(lattice, lattice.regular_valence());
-        let mut by_parity: [Vec<_>; 4] = Default::default();
+        let dilation = refinement.cycle()?.dilation;
         let mut reach = 0;
-        for (parity, stencil) in by_parity.iter_mut().enumerate() {
-            let (i, j) = (2 * FAR + parity as i32 % 2, 2 * FAR + parity as i32 / 2);
-            for (old, weight) in refinement.row_at(&patch, patch.birth(Label { sector: 0, i, j }))? {
-                let offset = (old.i - FAR, old.j - FAR);
-                reach = reach.max(offset.0.abs()).max(offset.1.abs());
-                stencil.push((offset, weight));
-            }
+        let mut by_remainder = Vec::new();
+        for (p, q) in (0..dilation).flat_map(|q| (0..dilation).map(move |p| (p, q))) {
+            let label = Label { sector: 0, i: dilation * FAR + p, j: dilation * FAR + q };
+            let row = refinement.row(&patch, label)?;
+            let offset = |(old, weight): (Label, f64)| ((old.i - FAR, old.j - FAR), weight);
+            let stencil: Vec<_> = row.into_iter().map(offset).collect();
+            reach = stencil.iter().fold(reach, |reach, ((i, j), _)| reach.max(i.abs()).max(j.abs()));
+            by_remainder.push(stencil);
         }
-        Ok(RegularStencils { by_parity, reach })
+        Ok(RegularStencils { by_remainder, dilation, reach })
+    }
+
+    /// How many times the new lattice is as fine as the old one.
+    pub fn dilation(&self) -> i32 {
+        self.dilation
     }
 
     /// The stencil of a new point with this label.
     pub fn at(&self, i: i32, j: i32) -> &[((i32, i32), f64)] {
-        &self.by_parity[(i.rem_euclid(2) + 2 * j.rem_euclid(2)) as usize]
+        &self.by_remainder[(i.rem_euclid(self.dilation) + self.dilation * j.rem_euclid(self.dilation)) as usize]
     }
 
     /// The largest offset of a stencil.
@@ -52,12 +59,17 @@ impl RegularStencils {
 
     /// The distance i + j from which on a new point's stencil keeps clear of the centre.
     pub fn clear_of_centre(&self) -> i32 {
-        4 * (self.reach + 1)
+        2 * self.dilation * (self.reach + 1)
     }
 
     /// The distance from a crease from which on a new point's stencil has points on one side only.
     pub fn clear_of_crease(&self) -> i32 {
-        2 * (self.reach + 1)
+        self.dilation * (self.reach + 1)
+    }
+
+    /// The place of the coarse lattice that the stencil of a new point is told from.
+    pub fn base(&self, i: i32, j: i32) -> (i32, i32) {
+        (i.div_euclid(self.dilation), j.div_euclid(self.dilation))
     }
 }
 
@@ -82,6 +94,11 @@ impl<'r, 's, M: Canonical> CanonicalRows<'r, 's, M> {
         CanonicalRows { patch, refinement, stencils, walked: RefCell::new(HashMap::new()) }
     }
 
+    /// How many times the new lattice is as fine as the old one.
+    pub fn dilation(&self) -> i32 {
+        self.stencils.dilation()
+    }
+
     /// Whether a new point's row is regular: it keeps clear of the centre and of every crease.
     fn is_regular(&self, label: Label) -> bool {
         self.patch.is_clear(label, self.stencils.clear_of_centre(), self.stencils.clear_of_crease())
@@ -93,7 +110,7 @@ impl<'r, 's, M: Canonical> CanonicalRows<'r, 's, M> {
     /// When a weight has no value, or a rule reaches over the boundary.
     pub fn visit(&self, label: Label, mut visit: impl FnMut(Label, f64)) -> Result<(), Obstacle> {
         if self.is_regular(label) {
-            let (i, j) = (label.i.div_euclid(2), label.j.div_euclid(2));
+            let (i, j) = self.stencils.base(label.i, label.j);
             for ((di, dj), weight) in self.stencils.at(label.i, label.j) {
                 visit(self.patch.point(label.sector, i + di, j + dj), *weight);
             }
@@ -113,7 +130,7 @@ impl<'r, 's, M: Canonical> CanonicalRows<'r, 's, M> {
         if let Some(row) = self.walked.borrow().get(&label) {
             return Ok(Rc::clone(row));
         }
-        let row = Rc::new(self.refinement.row_at(&self.patch, self.patch.birth(label))?);
+        let row = Rc::new(self.refinement.row(&self.patch, label)?);
         self.walked.borrow_mut().insert(label, Rc::clone(&row));
         Ok(row)
     }

@@ -3,7 +3,7 @@
 //! The walks of a rule without its weights, for those who want to show a rule: each point that it gives a weight to, and the
 //! half-edges that lead there.
 
-use super::{Obstacle, Refinement};
+use super::{Obstacle, Pass};
 use crate::mesh::Connectivity;
 use crate::numbers::Field;
 use crate::scheme::class_size;
@@ -22,7 +22,7 @@ pub struct Use<E> {
     pub path: Vec<E>,
 }
 
-impl<W: Field> Refinement<'_, W> {
+impl<W: Field> Pass<'_, W> {
     /// Every point of the classes that a rule names, told around the half-edges `starts` of its place. Points that a row
     /// does not pick are among them.
     ///

@@ -6,9 +6,9 @@
 
 use super::compact::Compact;
 use super::gather::{self, Coordinate, Point};
-use super::{Obstacle, Refinement, Row};
+use super::{Obstacle, Pass, Row};
 use crate::mesh::{Connectivity, Faces, HalfEdgeMesh, MAX_CORNERS, NONE, NotAMesh, Numbering, Split, Tags};
-use crate::scheme::{RuleBook, Scheme};
+use crate::scheme::{PassRules, RuleBook, Scheme};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::fmt;
@@ -63,8 +63,10 @@ pub enum NotRefinable {
     },
     /// Creases or corners under a split that has none.
     Tags,
-    /// A vertex inside the mesh with two edges, of which a dual split would make a face of two corners.
+    /// A vertex inside the mesh with two edges, of which a split would make a face of two corners.
     TwoEdges(usize),
+    /// A mesh with a boundary, under a split that has no rule for it.
+    Boundary(String),
     /// A split that there is no topology for.
     Split(String),
     /// The new mesh is too large.
@@ -80,9 +82,14 @@ impl fmt::Display for NotRefinable {
                 let kind = if *needed == 3 { "triangles" } else { "quads" };
                 write!(f, "face {face} has {corners} corners; the scheme refines {kind} only")
             }
-            NotRefinable::Tags => f.write_str("the mesh has creases or corners; a dual split has none"),
+            NotRefinable::Tags => f.write_str(
+                "the mesh has creases or corners; under this split the boundary recedes, and there are none",
+            ),
             NotRefinable::TwoEdges(vertex) => {
-                write!(f, "vertex {vertex} has two edges; a dual split would make a face of two corners of it")
+                write!(f, "vertex {vertex} has two edges; the split would make a face of two corners of it")
+            }
+            NotRefinable::Boundary(name) => {
+                write!(f, "the mesh has a boundary, and the split {name} has no rules for one")
             }
             NotRefinable::Split(name) => write!(f, "the split {name} can't be applied to meshes"),
             NotRefinable::Mesh(wrong) => write!(f, "{wrong}"),
@@ -121,95 +128,76 @@ impl<T: Coordinate> Buffers<T> {
     }
 }
 
-/// A scheme with its boundary rules, ready to refine meshes.
+/// One pass of a scheme's step with its boundary rules.
 #[derive(Clone, Debug)]
-pub struct Refiner<'a> {
+pub(super) struct PassRefiner<'a> {
     scheme: &'a Scheme,
+    told: PassRules<'a>,
     boundary: Option<&'a RuleBook>,
-    split: Split,
+    pub(super) split: Split,
 }
 
-impl<'a> Refiner<'a> {
-    /// A scheme, with the rules of a boundary file where there is one.
+impl<'a> PassRefiner<'a> {
+    /// A pass, with the rules of a boundary file where there is one.
     ///
     /// # Errors
-    /// When there is no topology for the scheme's split.
-    pub fn new(scheme: &'a Scheme, boundary: Option<&'a RuleBook>) -> Result<Refiner<'a>, NotRefinable> {
-        let split = Split::named(&scheme.split).ok_or_else(|| NotRefinable::Split(scheme.split.clone()))?;
-        Ok(Refiner { scheme, boundary, split })
+    /// When there is no topology for its split.
+    pub(super) fn new(
+        scheme: &'a Scheme,
+        told: PassRules<'a>,
+        boundary: Option<&'a RuleBook>,
+    ) -> Result<PassRefiner<'a>, NotRefinable> {
+        let split = Split::named(told.split).ok_or_else(|| NotRefinable::Split(told.split.to_string()))?;
+        Ok(PassRefiner { scheme, told, boundary, split })
     }
 
-    /// The topology of the scheme's split.
-    pub fn split(&self) -> Split {
-        self.split
+    /// Its rules.
+    pub(super) fn rules(&self) -> Pass<'a, f64> {
+        Pass::new(self.scheme, self.told, self.boundary)
     }
 
-    /// The scheme.
-    pub fn scheme(&self) -> &'a Scheme {
-        self.scheme
+    /// Whether every rule inside the mesh is compact, so that points can be gathered.
+    pub(super) fn is_compact(&self) -> bool {
+        Compact::<f64>::of(&self.rules(), &BTreeSet::new()).is_some()
     }
 
-    /// The rules of the boundary file.
-    pub fn boundary(&self) -> Option<&'a RuleBook> {
-        self.boundary
-    }
-
-    /// Whether every rule of the scheme inside the mesh is compact, so that points can be gathered.
-    pub fn is_compact(&self) -> bool {
-        Compact::<f64>::of(&Refinement::new(self.scheme, self.boundary), &BTreeSet::new()).is_some()
-    }
-
-    /// Checks that the scheme's split can be applied to a mesh.
+    /// Checks that the split can be applied to a mesh.
     ///
     /// # Errors
     /// The first face that is not fit.
-    pub fn fits(&self, mesh: &HalfEdgeMesh, tags: &Tags) -> Result<(), NotRefinable> {
-        if self.split == Split::Dual && !tags.is_empty() {
+    pub(super) fn fits(&self, mesh: &HalfEdgeMesh, tags: &Tags) -> Result<(), NotRefinable> {
+        if !self.split.keeps_boundary() && !tags.is_empty() {
             return Err(NotRefinable::Tags);
         }
+        if matches!(self.split, Split::Sqrt2 | Split::Sqrt3) && !mesh.is_closed() {
+            return Err(NotRefinable::Boundary(self.told.split.to_string()));
+        }
         let two_edges = |h: &u32| mesh.valence(*h) == 2 && mesh.boundary_at(*h).is_none();
-        if self.split == Split::Dual
+        if self.split.makes_faces_of_vertices()
             && let Some(vertex) = mesh.vertex_edges().iter().position(two_edges)
         {
             return Err(NotRefinable::TwoEdges(vertex));
         }
-        let needed = match self.scheme.mesh.as_str() {
-            "triangles" => 3,
-            "quads" => 4,
-            _ => return Ok(()),
-        };
-        if mesh.faces().same_size() == Some(needed as u32) {
-            return Ok(());
-        }
-        let odd = mesh.faces().iter().enumerate().find(|(_, face)| face.len() != needed);
-        odd.map_or(Ok(()), |(face, corners)| Err(NotRefinable::Face { face, corners: corners.len(), needed }))
+        Ok(())
     }
 
     /// One step.
     ///
     /// # Errors
     /// When the split can't be applied, the new mesh is too large, or a point can't be made.
-    pub fn step<T: Coordinate>(&self, level: &Level<T>, route: Route) -> Result<Level<T>, NotRefinable> {
+    pub(super) fn step<T: Coordinate>(&self, level: &Level<T>, route: Route) -> Result<Level<T>, NotRefinable> {
         let mut buffers = Buffers::default();
         let Refined { faces, positions } = self.last_step_in(level, route, &mut buffers)?;
-        let mesh = self.split.mesh(&level.mesh, &buffers.numbering, faces);
+        let mesh = self.split.mesh(&level.mesh, &buffers.numbering, faces)?;
         let tags = self.split.tags(&level.mesh, &level.tags, &mesh);
         Ok(Level { mesh, positions, tags })
     }
 
-    /// One step after which none follows: faces and points only.
+    /// One step after which none follows, faces and points only, in memory that is there already.
     ///
     /// # Errors
-    /// As [`Refiner::step`].
-    pub fn last_step<T: Coordinate>(&self, level: &Level<T>, route: Route) -> Result<Refined<T>, NotRefinable> {
-        self.last_step_in(level, route, &mut Buffers::default())
-    }
-
-    /// The same, in memory that is there already.
-    ///
-    /// # Errors
-    /// As [`Refiner::step`].
-    pub fn last_step_in<T: Coordinate>(
+    /// As [`PassRefiner::step`].
+    pub(super) fn last_step_in<T: Coordinate>(
         &self,
         level: &Level<T>,
         route: Route,
@@ -224,8 +212,8 @@ impl<'a> Refiner<'a> {
     /// A last step that uses its level up: what the faces don't need is given back before they are made.
     ///
     /// # Errors
-    /// As [`Refiner::step`].
-    pub fn finish<T: Coordinate>(&self, level: Level<T>, route: Route) -> Result<Refined<T>, NotRefinable> {
+    /// As [`PassRefiner::step`].
+    pub(super) fn finish<T: Coordinate>(&self, level: Level<T>, route: Route) -> Result<Refined<T>, NotRefinable> {
         let mut buffers = Buffers::default();
         let positions = self.new_positions(&level, route, &mut buffers)?;
         let Level { mesh, positions: old, tags } = level;
@@ -242,16 +230,14 @@ impl<'a> Refiner<'a> {
     ) -> Result<Vec<Point<T>>, NotRefinable> {
         self.fits(&level.mesh, &level.tags)?;
         self.split.new_corners(&level.mesh)?;
-        buffers.numbering = Numbering::in_buffers(&level.mesh, std::mem::take(&mut buffers.numbering));
+        buffers.numbering = self.split.numbering(&level.mesh, std::mem::take(&mut buffers.numbering));
         let numbering = &buffers.numbering;
         let count = self.split.new_vertices(&level.mesh, numbering);
         if count > MAX_CORNERS {
             return Err(NotAMesh::TooLarge.into());
         }
         let mut positions = room(std::mem::take(&mut buffers.positions), count);
-        let compact = (route == Route::Fast)
-            .then(|| Compact::of(&Refinement::new(self.scheme, self.boundary), &sizes(&level.mesh)))
-            .flatten();
+        let compact = (route == Route::Fast).then(|| Compact::of(&self.rules(), &sizes(&level.mesh))).flatten();
         match compact {
             Some(compact) => {
                 let left = self.gather(level, numbering, &compact, &mut positions);
@@ -262,18 +248,6 @@ impl<'a> Refiner<'a> {
         Ok(positions)
     }
 
-    /// The rows of all new points, in order: how each is made of the old ones.
-    ///
-    /// # Errors
-    /// As [`Refiner::step`].
-    pub fn rows(&self, mesh: &HalfEdgeMesh, tags: &Tags) -> Result<Vec<Row<u32, f64>>, NotRefinable> {
-        self.fits(mesh, tags)?;
-        let numbering = Numbering::of(mesh);
-        let refinement = Refinement::new(self.scheme, self.boundary);
-        let row = |point| refinement.row_of_birth(mesh, tags, self.split.birth(mesh, &numbering, point));
-        (0..self.split.new_vertices(mesh, &numbering)).map(|point| Ok(row(point)?)).collect()
-    }
-
     fn all_by_rows<T: Coordinate>(
         &self,
         level: &Level<T>,
@@ -282,11 +256,11 @@ impl<'a> Refiner<'a> {
     ) -> Result<(), Obstacle> {
         const RUN: usize = 1024;
         positions.par_chunks_mut(RUN).enumerate().try_for_each_init(
-            || Refinement::new(self.scheme, self.boundary),
-            |refinement, (run, points)| {
+            || self.rules(),
+            |rules, (run, points)| {
                 points.iter_mut().enumerate().try_for_each(|(at, point)| {
                     let birth = self.split.birth(&level.mesh, numbering, RUN * run + at);
-                    *point = applied(&refinement.row_of_birth(&level.mesh, &level.tags, birth)?, &level.positions);
+                    *point = applied(&rules.row_of_birth(&level.mesh, &level.tags, birth)?, &level.positions);
                     Ok(())
                 })
             },
@@ -304,10 +278,10 @@ impl<'a> Refiner<'a> {
         let made: Vec<(u32, Point<T>)> = points
             .par_iter()
             .map_init(
-                || Refinement::new(self.scheme, self.boundary),
-                |refinement, point| {
+                || self.rules(),
+                |rules, point| {
                     let birth = self.split.birth(&level.mesh, numbering, *point as usize);
-                    let row = refinement.row_of_birth(&level.mesh, &level.tags, birth)?;
+                    let row = rules.row_of_birth(&level.mesh, &level.tags, birth)?;
                     Ok((*point, applied(&row, &level.positions)))
                 },
             )

@@ -7,7 +7,6 @@ use crate::analysis::exact::formulas::{AllValences, Form, FrequencyForms, Which}
 use crate::analysis::exact::words::{Words, factor_in_words, free_in_words};
 use crate::numbers::{Extension, Field, Free};
 use crate::refine::OrbitNames;
-use crate::scheme::Scheme;
 use serde::Serialize;
 
 /// What holds for every n.
@@ -102,12 +101,12 @@ pub struct TangentFormula {
 }
 
 /// The report of the forms of a scheme.
-pub(super) fn all_valences(all: &AllValences, scheme: &Scheme, names: &OrbitNames) -> AllValencesReport {
+pub(super) fn all_valences(all: &AllValences, names: &OrbitNames) -> AllValencesReport {
     let subdominant = all.subdominant_in_words();
     AllValencesReport {
         from: all.from,
         except: all.except,
-        size: [usize::from(!scheme.is_dual()), all.rows.orbits.len()],
+        size: [usize::from(all.rows.centre.is_some()), all.rows.orbits.len()],
         frequencies: all.frequencies.iter().map(|own| frequency(own, all)).collect(),
         subdominant: subdominant.map(Formula::from),
         identities: identities(all),

@@ -354,8 +354,8 @@ impl Report {
             kind: "surface",
             classification: Classification {
                 mesh: scheme.mesh.clone(),
-                split: scheme.split.clone(),
-                dual: scheme.is_dual(),
+                split: scheme.split_in_words(),
+                dual: !analyzer.lattice().has_centre(),
                 interpolating: scheme.is_interpolating(),
                 regular_valence: scheme.regular_valence(),
             },
@@ -366,7 +366,7 @@ impl Report {
                 .map(|p| (p.name.clone(), p.value.formula.text().to_string()))
                 .collect(),
             sources: keys,
-            all_valences: analyzer.forms().ok().map(|forms| all_valences(forms, scheme, &names)),
+            all_valences: analyzer.forms().ok().map(|forms| all_valences(forms, &names)),
             why_no_formulas: analyzer.forms().err().map(str::to_string),
             valences,
             claims,
@@ -414,8 +414,8 @@ fn valence_report(analysis: &Analysis, verdicts: &[Verdict], names: &OrbitNames,
     ValenceReport {
         n,
         size: analysis.local.size(),
-        steps: 1,
-        dilation: 2,
+        steps: analysis.regular.steps as u32,
+        dilation: analysis.regular.dilation.unsigned_abs(),
         eigenvalues: eigenvalues(analysis, digits),
         arithmetic: match analysis.exact.as_ref().map(|exact| exact.arithmetic) {
             Ok(Arithmetic::Exact) => "exact",

@@ -24,13 +24,17 @@ macro_rules! listed {
 }
 
 /// Every scheme of the catalogue.
-pub const SCHEMES: [Listed; 6] = listed! {
+pub const SCHEMES: [Listed; 10] = listed! {
     "loop" => "triangle/loop.toml",
     "loop-warren" => "triangle/loop-warren.toml",
+    "butterfly" => "triangle/butterfly.toml",
     "modified-butterfly" => "triangle/modified-butterfly.toml",
+    "sqrt3" => "triangle/sqrt3.toml",
     "catmull-clark" => "quad/catmull-clark.toml",
     "doo-sabin" => "quad/doo-sabin.toml",
     "catmull-clark-biquadratic" => "quad/catmull-clark-biquadratic.toml",
+    "mid-edge" => "quad/mid-edge.toml",
+    "midpoint" => "quad/midpoint.toml",
 };
 
 /// Every boundary file of the catalogue.

@@ -6,7 +6,7 @@
 use super::evaluate::Place;
 use super::formula::{Condition, Formula};
 use super::vocabulary::RuleKind;
-use super::{Entry, Parameter, Rule, RuleBook, Scheme, Weights};
+use super::{Entry, MOST_PASSES, Parameter, Pass, Rule, RuleBook, Scheme, Weights};
 use crate::fault::{Fault, Faults};
 use crate::numbers::{Field, Laurent, RingSize, sum};
 use std::collections::BTreeSet;
@@ -56,9 +56,10 @@ impl RuleBook {
     /// As [`Scheme::check`].
     pub fn check(&self, counts: &[usize], regular: usize) -> Result<Vec<RuleSum>, Faults> {
         let mut faults: Vec<Fault> = self.parameters.iter().filter_map(|p| self.check_parameter(p).err()).collect();
+        faults.extend(self.passes.iter().filter_map(|pass| self.check_repeat(pass).err()));
         let mut sums = Vec::new();
         if faults.is_empty() {
-            for rule in self.rules.values() {
+            for rule in self.all_rules() {
                 let cases = self.check_cases(rule, counts, regular);
                 let broken = !cases.is_empty();
                 faults.extend(cases);
@@ -97,7 +98,7 @@ impl RuleBook {
             let fault = elsewhere.check_sum(rule, counts, regular).err()?;
             fault.message.ends_with(NOT_ONE).then_some(fault)
         };
-        let mut fault = elsewhere.rules.values().find_map(wrong)?;
+        let mut fault = elsewhere.all_rules().find_map(wrong)?;
         fault.message = format!("with {}, {}", moved.join(", "), fault.message);
         Some(fault.hint("the weights must sum to 1 whatever the values of the parameters"))
     }
@@ -132,6 +133,22 @@ impl RuleBook {
             }
         }
         Ok(())
+    }
+
+    /// How often a pass is made; 0 where that is no whole number.
+    pub(crate) fn repeats(&self, pass: &Pass) -> usize {
+        let value = |placed| self.evaluate(placed, &Place::<f64>::at(None, 0)).unwrap_or(0.0);
+        pass.repeat.as_ref().map_or(1, |placed| value(placed) as usize)
+    }
+
+    fn check_repeat(&self, pass: &Pass) -> Result<(), Fault> {
+        let Some(placed) = &pass.repeat else { return Ok(()) };
+        let value = self.evaluate(placed, &Place::<f64>::at(None, 0))?;
+        if value.fract() == 0.0 && (0.0..=MOST_PASSES as f64).contains(&value) {
+            return Ok(());
+        }
+        let message = format!("a pass is made a whole number of times, 0 to {MOST_PASSES}, not {value}");
+        Err(Fault::at(placed.span.clone(), message, "repeated so often"))
     }
 
     fn check_parameter(&self, parameter: &Parameter) -> Result<(), Fault> {
@@ -178,13 +195,13 @@ impl RuleBook {
 
     /// The names that conditions mention.
     pub fn condition_names(&self) -> BTreeSet<String> {
-        let lists = self.rules.values().flat_map(|rule| self.case_lists(rule)).flatten();
+        let lists = self.all_rules().flat_map(|rule| self.case_lists(rule)).flatten();
         lists.flat_map(|(condition, _)| condition.names()).map(|(name, _)| name.to_string()).collect()
     }
 
     /// The count from which on no condition of a rule in n changes, if each compares n with a number.
     pub fn settled_from_n(&self) -> Option<i64> {
-        let told = self.rules.values().filter(|rule| rule.kind.variable() == Some("n"));
+        let told = self.all_rules().filter(|rule| rule.kind.variable() == Some("n"));
         told.map(|rule| self.settled_from(rule)).try_fold(0, |a, b| Some(a.max(b?)))
     }
 
@@ -193,7 +210,7 @@ impl RuleBook {
     /// # Errors
     /// When a condition has no value.
     pub fn cases_at(&self, count: i64) -> Result<Vec<Option<usize>>, Fault> {
-        let told = self.rules.values().filter(|rule| rule.kind.variable() == Some("n"));
+        let told = self.all_rules().filter(|rule| rule.kind.variable() == Some("n"));
         let mut cases = Vec::new();
         for list in told.flat_map(|rule| self.case_lists(rule)) {
             let mut holding = None;
@@ -308,8 +325,8 @@ impl RuleBook {
         // conditions that compare n with numbers, and only those, are decided exactly
         let settled = self.settled_from(rule).filter(|settled| *settled <= MOST_CASES)?.max(least);
         let one = |n: i64| self.exact_sum(rule, RingSize::Exactly(n)) == Some(Laurent::whole(1));
-        if rule.kind == RuleKind::Face && self.quads_only {
-            return Some(one(4));
+        if let (RuleKind::Face, Some(corners)) = (rule.kind, self.face_corners) {
+            return Some(one(corners));
         }
         let told = |n: &i64| self.is_told_at(rule.kind, *n, regular);
         // waves of frequency p alias at n <= p: try the tail from a little later on, and those n one by one
@@ -323,7 +340,7 @@ impl RuleBook {
         let regular = regular as i64;
         match kind {
             RuleKind::EdgeFromIrregularEnd => count >= least_count(kind) && count != regular,
-            RuleKind::Face if self.quads_only => count == 4,
+            RuleKind::Face if self.face_corners.is_some() => self.face_corners == Some(count),
             _ => count >= least_count(kind),
         }
     }

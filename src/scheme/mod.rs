@@ -144,6 +144,31 @@ pub struct Let {
     pub uses_index: bool,
 }
 
+/// One pass of a step of several: its split and rules.
+#[derive(Clone, Debug)]
+pub struct Pass {
+    /// The split, a name of the vocabulary.
+    pub split: String,
+    /// Its rules.
+    pub rules: BTreeMap<RuleKind, Rule>,
+    /// How often it is made; once where nothing is said.
+    pub repeat: Option<Placed>,
+    /// Where its table starts.
+    pub span: Range<usize>,
+}
+
+/// The most passes of one step.
+pub const MOST_PASSES: usize = 32;
+
+/// What one pass of a step is: its split and rules.
+#[derive(Clone, Copy, Debug)]
+pub struct PassRules<'a> {
+    /// The split, a name of the vocabulary.
+    pub split: &'a str,
+    /// Its rules.
+    pub rules: &'a BTreeMap<RuleKind, Rule>,
+}
+
 /// The rules of one file with the names that they use.
 #[derive(Clone, Debug)]
 pub struct RuleBook {
@@ -159,13 +184,20 @@ pub struct RuleBook {
     pub parameters: Vec<Parameter>,
     /// Named formulas.
     pub lets: Vec<Let>,
-    /// The rules.
+    /// The rules, where a step is one pass.
     pub rules: BTreeMap<RuleKind, Rule>,
-    /// Whether every face of the meshes that it refines has four corners.
-    pub quads_only: bool,
+    /// The passes of a step of several.
+    pub passes: Vec<Pass>,
+    /// The number of corners of every face that a rule is told around, where it is the same for all.
+    pub face_corners: Option<i64>,
 }
 
 impl RuleBook {
+    /// The rules of all passes.
+    pub fn all_rules(&self) -> impl Iterator<Item = &Rule> {
+        self.rules.values().chain(self.passes.iter().flat_map(|pass| pass.rules.values()))
+    }
+
     /// The faults as an error about this file.
     pub fn faults(&self, faults: Vec<Fault>) -> Faults {
         Faults { origin: self.origin.clone(), text: self.text.clone(), faults }
@@ -181,7 +213,7 @@ pub struct Scheme {
     pub book: RuleBook,
     /// The kind of mesh: triangles, quads or polygons.
     pub mesh: String,
-    /// The split, a name of the vocabulary.
+    /// The split, a name of the vocabulary; empty where a step has several passes, each with its own.
     pub split: String,
     /// The boundary files that go with it; the first is the default.
     pub boundary: Vec<String>,
@@ -195,14 +227,32 @@ impl Scheme {
         if self.mesh == "triangles" { 6 } else { 4 }
     }
 
-    /// Whether extraordinary points are faces (dual schemes) and not vertices.
-    pub fn is_dual(&self) -> bool {
-        self.book.rules.contains_key(&RuleKind::Corner)
+    /// The passes of one step, in order, each as often as it is made.
+    pub fn passes(&self) -> Vec<PassRules<'_>> {
+        if self.book.passes.is_empty() {
+            return vec![PassRules { split: &self.split, rules: &self.book.rules }];
+        }
+        let of = |pass| std::iter::repeat_n(pass, self.book.repeats(pass).min(MOST_PASSES));
+        let all = self.book.passes.iter().flat_map(of).take(MOST_PASSES);
+        all.map(|pass| PassRules { split: &pass.split, rules: &pass.rules }).collect()
+    }
+
+    /// The split, or those of the passes: `1-to-n, then 2 x faces-to-vertices`.
+    pub fn split_in_words(&self) -> String {
+        let passes = self.passes();
+        let runs = passes.chunk_by(|a, b| a.split == b.split);
+        let words = runs.map(|run| match run {
+            [one] => one.split.to_string(),
+            _ => format!("{} x {}", run.len(), run[0].split),
+        });
+        words.collect::<Vec<_>>().join(", then ")
     }
 
     /// Whether the scheme keeps the points of the coarse mesh: its vertex rule is the vertex itself.
     pub fn is_interpolating(&self) -> bool {
-        self.book.rules.get(&RuleKind::Vertex).is_some_and(|rule| {
+        // passes after the first move what it keeps
+        let rules = if self.book.passes.len() > 1 { None } else { self.passes().first().map(|pass| pass.rules) };
+        rules.and_then(|rules| rules.get(&RuleKind::Vertex)).is_some_and(|rule| {
             let [entry] = rule.entries.as_slice() else { return false };
             let one = |weights: &&Weights| matches!(weights, Weights::Each(formula) if formula.formula.text() == "1");
             entry.position.name == "centre" && entry.weights.values().iter().all(one)

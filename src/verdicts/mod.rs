@@ -161,27 +161,24 @@ fn regular_part(analysis: &Analysis) -> Verdict {
     let value = regular
         .lambda
         .map_or("none".to_string(), |lambda| format!("lambda = {} at n = {}", digits(lambda), regular.valence));
-    let half = regular.lambda.is_some_and(|lambda| (lambda - 0.5).abs() <= TIE);
-    let evidence = match below(regular.rival, 0.5, 0.0) {
-        Evidence::For => says(regular.next_modulus < 1.0 && half),
+    let part = 1.0 / f64::from(regular.dilation.max(1));
+    let alike = regular.lambda.is_some_and(|lambda| (lambda - part).abs() <= TIE);
+    let evidence = match below(regular.rival, part, 0.0) {
+        Evidence::For => says(regular.next_modulus < 1.0 && alike),
         other => other,
     };
+    let spectrum = format!("1, then 1/{} twice, then less, at the regular valence", regular.dilation);
     let seen = if evidence == Evidence::For {
-        "what is necessary was seen: 1, then 1/2 twice, then less, at the regular valence"
+        format!("what is necessary was seen: {spectrum}")
     } else {
-        "a C1 scheme has 1, then 1/2 twice, then less, at the regular valence"
+        format!("a C1 scheme has {spectrum}")
     };
     let (seen, evidence) = match regular.exactly {
-        Some(true) => {
-            ("what is necessary holds exactly: 1, then 1/2 twice, then less, at the regular valence", Evidence::For)
-        }
-        Some(false) => (
-            "a C1 scheme has 1, then 1/2 twice, then less, at the regular valence: exactly, it has not",
-            Evidence::Against,
-        ),
+        Some(true) => (format!("what is necessary holds exactly: {spectrum}"), Evidence::For),
+        Some(false) => (format!("a C1 scheme has {spectrum}: exactly, it has not"), Evidence::Against),
         None => (seen, evidence),
     };
-    let why = [seen.to_string(), "contractive difference schemes would decide".to_string()];
+    let why = [seen, "contractive difference schemes would decide".to_string()];
     undecided("regular part", states, value, evidence, &why, &["reif-1995", "zorin-2000"])
 }
 

@@ -98,11 +98,11 @@ fn matrix(
     local: &FanMatrix,
 ) -> Result<FanMatrix<Cosine>, Obstacle> {
     // every place is told point by point: no count is the centre's alone
-    let weights = ExactWeights::new(world, Count::Number, usize::MAX, false, Rc::new(Cell::new(0)));
+    let weights = ExactWeights::new(world, Count::Number, usize::MAX, Rc::new(Cell::new(0)));
     let refinement: Refinement<PerFrequency<Cosine>> = Refinement::weighed(scheme, weights).with_boundary(book);
     let fan = local.fan;
     let row = |label: Label| {
-        let row = refinement.row_at(&fan, fan.birth(label))?;
+        let row = refinement.row(&fan, label)?;
         Ok(row.into_iter().map(|(old, weight)| (old, weight.general)).collect())
     };
     FanMatrix::of(fan, local.labels.clone(), row)

@@ -212,7 +212,7 @@ impl<'a, 's> HalfPlane<'a, 's> {
         loop {
             let mut grown = supports.clone();
             for (j, down) in (0..heights).flat_map(|j| [(j, false), (j, true)]) {
-                for child in tile(j, down).children(self.lattice) {
+                for child in tile(j, down).children(self.lattice, 2) {
                     let kind = usize::from(child.down);
                     let own: Vec<(i32, i32)> = match supports.get(child.j as usize) {
                         Some(own) => own[kind].iter().map(|(x, y)| (child.i + x, *y)).collect(),

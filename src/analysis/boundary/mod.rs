@@ -15,7 +15,7 @@ pub mod masks;
 use super::cores::Cores;
 use super::spectrum::Spectrum;
 use crate::mesh::{Fan, FanKind, Lattice};
-use crate::refine::{FanRows, Obstacle, Refinement, RegularStencils, lattice_of};
+use crate::refine::{FanRows, Obstacle, Refinement, RegularStencils, cycle_of, lattice_of};
 use crate::scheme::{RuleBook, Scheme};
 use exact::ExactHalves;
 use halves::{Halves, MirrorNode};
@@ -58,12 +58,12 @@ impl<'a> BoundaryAnalyzer<'a> {
     /// Prepares the analysis of a scheme with the rules of a boundary file.
     ///
     /// # Errors
-    /// For a dual scheme; when a weight has no value, a rule reaches over the boundary, or stencils reach too far.
+    /// When the boundary recedes or is turned; when a weight has no value, a rule reaches over the boundary, or stencils reach too far.
     pub fn new(scheme: &'a Scheme, book: &'a RuleBook) -> Result<BoundaryAnalyzer<'a>, Obstacle> {
-        if scheme.is_dual() {
-            return Err(Obstacle::Limit(
-                "dual schemes have no boundary rules, and so no analysis at a boundary".to_string(),
-            ));
+        let plain = cycle_of(scheme)?;
+        if plain.dilation != 2 || plain.placements.iter().any(|p| !p.split.keeps_boundary() || !p.from.has_centre()) {
+            let why = "under its splits the boundary recedes, or is turned, and there is no analysis at a boundary";
+            return Err(Obstacle::Limit(format!("{why}: {}", scheme.split_in_words())));
         }
         let refinement = Refinement::new(scheme, Some(book));
         let lattice = lattice_of(scheme);

@@ -101,7 +101,7 @@ impl Net<'_, '_> {
             return Err(Obstacle::Limit("an eigenvector depends on itself".to_string()));
         }
         let patch = &self.around.patch;
-        let row = self.around.refinement.row_at(patch, patch.birth(Label { sector: 0, i: orbit.0, j: orbit.1 }))?;
+        let row = self.around.refinement.row(patch, Label { sector: 0, i: orbit.0, j: orbit.1 })?;
         let mut sum = Complex::zero();
         for (old, weight) in row {
             let turns = RBig::from(self.frequency * old.sector as usize) / RBig::from(patch.valence);
@@ -302,7 +302,7 @@ fn values<F: Field>(
 const FAR: i32 = 64;
 
 /// Whether the stencils of the regular lattice take quadratic polynomials to such: the moments up to the second of the old points
-/// about the new one are the same for all four parities of its label. Then 1/4 has x^2, xy and y^2 as eigenfunctions.
+/// about the new one are the same for all remainders of its label. Then lambda^2 has x^2, xy and y^2 as eigenfunctions.
 ///
 /// # Errors
 /// When a weight has no value.
@@ -312,12 +312,14 @@ pub fn generates_quadratics<F: Field>(
 ) -> Result<bool, Obstacle> {
     let patch = Patch::new(lattice, lattice.regular_valence());
     let mut first: Option<Vec<F>> = None;
-    for (i, j) in [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| (2 * FAR + i, 2 * FAR + j)) {
-        let row = refinement.row_at(&patch, patch.birth(Label { sector: 0, i, j }))?;
+    let d = refinement.cycle()?.dilation;
+    let remainders = (0..d).flat_map(|i| (0..d).map(move |j| (i, j)));
+    for (i, j) in remainders.map(|(i, j)| (d * FAR + i, d * FAR + j)) {
+        let row = refinement.row(&patch, Label { sector: 0, i, j })?;
         let mut moments = vec![F::whole(0); 6];
         for (old, weight) in row {
-            // twice the distances
-            let (x, y) = (i64::from(2 * old.i - i), i64::from(2 * old.j - j));
+            // the distances times the dilation
+            let (x, y) = (i64::from(d * old.i - i), i64::from(d * old.j - j));
             for (moment, factor) in moments.iter_mut().zip([1, x, y, x * x, x * y, y * y]) {
                 *moment = moment.plus(&weight.general.times(&F::whole(factor))?)?;
             }

@@ -112,12 +112,12 @@ impl AllValences {
         let world = FreeWorld { parameters: parameters.clone() };
         let aliases = Rc::new(Cell::new(0));
         let count = Count::Free { n: Free::variable(N), like: GENERIC };
-        let weights = ExactWeights::new(&world, count, GENERIC, scheme.is_dual(), Rc::clone(&aliases));
+        let weights = ExactWeights::new(&world, count, GENERIC, Rc::clone(&aliases));
         let refinement: Refinement<PerFrequency<Free>> = Refinement::weighed(scheme, weights);
         let rows = Rows::of(&refinement, Patch::new(lattice, GENERIC), orbits)?;
         let settled = first_of_the_same_cases(scheme)?;
         let from = settled.max(aliases.get() + 1).max(3);
-        let from_end = scheme.book.rules.contains_key(&RuleKind::EdgeFromIrregularEnd);
+        let from_end = scheme.book.all_rules().any(|rule| rule.kind == RuleKind::EdgeFromIrregularEnd);
         let except = (from_end && scheme.regular_valence() >= from).then(|| scheme.regular_valence());
         let mut all = AllValences {
             from,

@@ -22,7 +22,7 @@ use crate::numbers::real_root::{Embedding, RealRoot};
 use crate::numbers::{
     AtValence, Cosine, EnclosedWorld, Enclosure, Extension, Field, PerFrequency, Trouble, Univariate, World,
 };
-use crate::refine::{Count, EnclosedWeights, ExactWeights, Obstacle, Refinement};
+use crate::refine::{Count, EnclosedWeights, ExactWeights, Obstacle, Refinement, cycle_of};
 use crate::scheme::Scheme;
 use block::{Block, Wave};
 use dashu_ratio::RBig;
@@ -228,8 +228,8 @@ impl Task<'_> {
     }
 
     fn refinement<'w, W: World>(&'w self, world: &'w W) -> Refinement<'w, PerFrequency<W::Value>> {
-        let (dual, aliases) = (self.scheme.is_dual(), Rc::new(Cell::new(0)));
-        Refinement::weighed(self.scheme, ExactWeights::new(world, Count::Number, self.centre(), dual, aliases))
+        let aliases = Rc::new(Cell::new(0));
+        Refinement::weighed(self.scheme, ExactWeights::new(world, Count::Number, self.centre(), aliases))
     }
 
     fn rows<W: World>(&self, world: &W) -> Result<Rows<W::Value>, Obstacle> {
@@ -248,8 +248,9 @@ impl Task<'_> {
         let n = self.valence;
         let twice = |e: &&Eigenvalue| if e.frequency == 0 || 2 * e.frequency == n { 1 } else { 2 };
         let count: usize = tied.iter().map(|e| twice(e) * e.algebraic.unwrap_or(0)).sum();
-        let half = Univariate::new(vec![F::whole(-1).over(&F::whole(2))?, F::whole(1)]);
-        if n == self.lattice.regular_valence() && count == 3 && *spectrum.polynomial(lambda) == half {
+        let dilation = i64::from(cycle_of(self.scheme)?.dilation);
+        let part = Univariate::new(vec![F::whole(-1).over(&F::whole(dilation))?, F::whole(1)]);
+        if n == self.lattice.regular_valence() && count == 3 && *spectrum.polynomial(lambda) == part {
             let Some(world) = AtValence::new(n as u64) else { return Ok(None) };
             if curvature::generates_quadratics(&self.refinement(&world), self.lattice)? {
                 return Ok(Some(true));
@@ -296,11 +297,11 @@ impl Task<'_> {
         world: &W,
         embedding: Embedding<W::Value, BITS>,
     ) -> Result<Vec<(Label, ExactWeight)>, Obstacle> {
-        let (dual, aliases) = (self.scheme.is_dual(), Rc::new(Cell::new(0)));
-        let weights = ExactWeights::new(world, Count::Number, usize::MAX, dual, aliases);
+        let aliases = Rc::new(Cell::new(0));
+        let weights = ExactWeights::new(world, Count::Number, usize::MAX, aliases);
         let refinement: Refinement<PerFrequency<W::Value>> = Refinement::weighed(self.scheme, weights);
         let patch = Patch::new(self.lattice, self.valence);
-        let row = refinement.row_at(&patch, patch.birth(Label { sector: 0, i: 0, j: 0 }))?;
+        let row = refinement.row(&patch, Label { sector: 0, i: 0, j: 0 })?;
         let weight =
             |value: &W::Value| Ok::<_, Trouble>(ExactWeight { value: embedding(value)?, exact: value.in_words() });
         row.iter().map(|(label, value)| Ok((*label, weight(&value.general)?))).collect()

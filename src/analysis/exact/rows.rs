@@ -37,7 +37,7 @@ impl<F: Field> Rows<F> {
     pub fn of(refinement: &Refinement<PerFrequency<F>>, patch: Patch, orbits: &[Orbit]) -> Result<Rows<F>, Obstacle> {
         let index = |orbit: Orbit| orbits.iter().position(|own| *own == orbit);
         let row = |label: Label| -> Result<Vec<Entry<F>>, Obstacle> {
-            let old = refinement.row_at(&patch, patch.birth(label))?;
+            let old = refinement.row(&patch, label)?;
             let entry = |(point, weight): (Label, PerFrequency<F>)| {
                 let centre = patch.centre() == Some(point);
                 let orbit = if centre { None } else { Some(index(point.orbit()).ok_or_else(outside)?) };

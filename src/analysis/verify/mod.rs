@@ -8,7 +8,6 @@ mod zoom;
 
 use super::limit::{LimitSurface, Limits, NoLimit, cross, dot, unit};
 use super::places::{Place, PlaceMasks, Rates};
-use crate::mesh::Split;
 use crate::refine::{Level, Obstacle, Refiner, Route};
 use zoom::Zoom;
 
@@ -155,18 +154,14 @@ impl<'a> Verifier<'a> {
     pub fn levels(&self, level: &Level<f64>, steps: usize) -> Result<Levels, NoLimit> {
         let first = self.limits.of(level, &|| ())?;
         let mut gaps = vec![gap(level, &first)];
-        let mut second = None;
         let mut later: Option<Level<f64>> = None;
+        let mut centres = self.limits.vertices(level);
         for _ in 0..steps {
-            let next = self.refiner.step(later.as_ref().unwrap_or(level), Route::Fast)?;
-            let limit = self.limits.of(&next, &|| ())?;
-            gaps.push(gap(&next, &limit));
-            (second, later) = (Some(limit), Some(next));
+            let next = self.refiner.step_tracing(later.as_ref().unwrap_or(level), Route::Fast, &mut centres)?;
+            gaps.push(gap(&next, &self.limits.of(&next, &|| ())?));
+            later = Some(next);
         }
-        if let (Split::Dual, Some(later)) = (self.refiner.split(), &later) {
-            // a vertex becomes a face, which keeps its number
-            second = Some(self.limits.of_faces(later, self.limits.faces_of_vertices(level)?)?);
-        }
+        let second = later.map(|later| self.limits.of_centres(&later, centres, &|| ())).transpose()?;
         let found = Levels::between(&first, second.as_ref().unwrap_or(&first), size(&level.positions));
         Ok(Levels { gaps, ..found })
     }

@@ -14,10 +14,10 @@ use super::super::limit::{cross, scaled, unit};
 use super::super::places::{LabelledMask, Place, point_at};
 use super::Observed;
 use crate::mesh::{
-    Connectivity, Crease, Faces, Fan, FanKind, HalfEdgeMesh, Label, Lattice, Numbering, Patch, Tags, disc,
-    edge_between, first_corner,
+    Centre, Connectivity, Crease, Faces, Fan, FanKind, HalfEdgeMesh, Label, Lattice, Patch, Tags, disc, edge_between,
+    first_corner,
 };
-use crate::refine::{NotRefinable, Obstacle, Refinement, Refiner, applied as row_applied, lattice_of};
+use crate::refine::{Chain, NotRefinable, Obstacle, Refiner, applied as row_applied, lattice_of};
 use std::collections::BTreeSet;
 
 /// A neighbourhood that is looked at through a growing glass.
@@ -128,40 +128,63 @@ impl<'r, 'a> Zoom<'r, 'a> {
     }
 
     fn refine(&mut self) -> Result<(), NotRefinable> {
-        let split = self.refiner.split();
-        let numbering = Numbering::of(&self.mesh);
-        let faces = split.faces(&self.mesh, &numbering, Vec::new());
-        let fine = split.mesh(&self.mesh, &numbering, faces);
-        let kept = self.kept(&fine);
-        let refinement = Refinement::new(self.refiner.scheme(), self.refiner.boundary());
-        let point = |vertex: &u32| {
-            let birth = split.birth(&self.mesh, &numbering, *vertex as usize);
-            let row = refinement.row_of_birth(&self.mesh, &self.tags, birth)?;
-            Ok(row_applied(&row, &self.points))
-        };
+        let chain = self.refiner.chain(&self.mesh, &self.tags, self.refiner.steps_of_cycle())?;
+        let middle = if self.middle > 1 { Centre::Face(0) } else { Centre::Vertex(0) };
+        let kept = self.kept(&chain.mesh, chain.becomes(middle).unwrap_or(middle));
+        let point = |vertex: &u32| Ok(row_applied(&chain.row(*vertex)?, &self.points));
         let points = kept.iter().map(point).collect::<Result<Vec<_>, Obstacle>>()?;
-        let tags = split.tags(&self.mesh, &self.tags, &fine);
-        if self.middle == 1 {
-            self.ring = self.next_ring(&numbering, &kept);
-        }
-        (self.mesh, self.tags) = cropped(&fine, &tags, &kept)?;
+        let ring = self.next_ring(&chain, &kept);
+        (self.mesh, self.tags) = cropped(&chain.mesh, &chain.tags, &kept)?;
+        self.ring = ring.unwrap_or_else(|| self.nearest_ring(&points));
         self.points = points;
         Ok(())
     }
 
-    /// The points on the edges from the centre to its neighbours, among those that are kept.
-    fn next_ring(&self, numbering: &Numbering, kept: &[u32]) -> Vec<usize> {
+    /// The points on the edges from the centre to its neighbours, among those that are kept, where the splits put them there.
+    fn next_ring(&self, chain: &Chain, kept: &[u32]) -> Option<Vec<usize>> {
         let on_edge = |neighbour: &usize| {
             let edge = edge_between(&self.mesh, [0, *neighbour as u32])?;
-            let point = self.mesh.vertices() as u32 + numbering.of_first(first_corner(&self.mesh, edge));
+            let point = chain.point_on_edge(first_corner(&self.mesh, edge))?;
             kept.iter().position(|vertex| *vertex == point)
         };
-        self.ring.iter().filter_map(on_edge).collect()
+        if self.middle > 1 { None } else { self.ring.iter().map(on_edge).collect() }
+    }
+
+    /// The neighbours of the centre in the cropped mesh (dual: the corners of its face), counter-clockwise from the one whose direction, with that of
+    /// all that follow, is nearest to the last ring's: under splits that move points off the old edges.
+    fn nearest_ring(&self, points: &[[f64; 3]]) -> Vec<usize> {
+        let own: Vec<usize> = match self.middle {
+            1 => {
+                let around = self.mesh.around_vertex(self.mesh.vertex_edges()[0]);
+                around.into_iter().map(|spoke| self.mesh.target(spoke) as usize).collect()
+            }
+            _ => self.mesh.faces().face(0).iter().map(|corner| *corner as usize).collect(),
+        };
+        let n = own.len();
+        let mean = |points: &[[f64; 3]]| {
+            [0, 1].map(|axis| points[..self.middle].iter().map(|p| p[axis]).sum::<f64>() / self.middle as f64)
+        };
+        let (old, new) = (mean(&self.points), mean(points));
+        let plane = |p: [f64; 3], centre: [f64; 2]| [p[0] - centre[0], p[1] - centre[1]];
+        let alike = |turn: usize| {
+            let pairs = self.ring.iter().zip((0..n).map(|at| own[(at + turn) % n]));
+            pairs
+                .map(|(a, b)| {
+                    let (a, b) = (plane(self.points[*a], old), plane(points[b], new));
+                    a[0] * b[0] + a[1] * b[1]
+                })
+                .sum::<f64>()
+        };
+        let turn = (0..n).max_by(|a, b| alike(*a).total_cmp(&alike(*b))).unwrap_or(0);
+        (0..n).map(|at| own[(at + turn) % n]).collect()
     }
 
     /// The vertices within the rings: the centre first (dual: the corners of the central face), then in order.
-    fn kept(&self, fine: &HalfEdgeMesh) -> Vec<u32> {
-        let middle: Vec<u32> = if self.middle > 1 { fine.faces().face(0).to_vec() } else { vec![0] };
+    fn kept(&self, fine: &HalfEdgeMesh, centre: Centre) -> Vec<u32> {
+        let middle: Vec<u32> = match centre {
+            Centre::Face(face) => fine.faces().face(face as usize).to_vec(),
+            Centre::Vertex(vertex) => vec![vertex],
+        };
         let mut all: BTreeSet<u32> = middle.iter().copied().collect();
         let mut newest = middle.clone();
         for _ in 0..self.rings {

@@ -1,13 +1,17 @@
 //! How does a step make new faces out of old ones?
 //!
-//! Each split in a file of its own: which points are born, which faces they make, and which half-edges are twins. Everything is
-//! arithmetic on corners; the only thing looked up is the number of an edge. Old vertices come first, then the points of
-//! edges, in the order of their first corners, then those of faces.
+//! Each split in a file of its own: which points are born, which faces they make, and, for those of the most used schemes, which
+//! half-edges are twins. All is arithmetic on corners; the only thing looked up is the number of an edge. Old vertices come first, then the
+//! points of edges, in the order of their first corners, then those of faces.
 
 mod dual;
+mod faces_to_vertices;
+mod mid_edge;
 mod numbering;
 mod one_to_four;
 mod one_to_n;
+mod sqrt2;
+mod sqrt3;
 
 pub use numbering::Numbering;
 
@@ -23,6 +27,25 @@ pub enum Split {
     OneToN,
     /// A new point for each corner of each face; faces, edges and vertices become faces. The boundary recedes.
     Dual,
+    /// A new point in each triangle, edges inside the mesh flipped.
+    Sqrt3,
+    /// A new point in each face, edges inside the mesh become quads. The boundary recedes.
+    Sqrt2,
+    /// A new point on each edge; faces and vertices become faces. The boundary recedes.
+    MidEdge,
+    /// A new point in each face; vertices become faces: the dual mesh. The boundary recedes.
+    FacesToVertices,
+    /// The mesh as it is.
+    Keep,
+}
+
+/// A vertex or a face, as they turn into each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Centre {
+    /// A vertex.
+    Vertex(u32),
+    /// A face.
+    Face(u32),
 }
 
 /// The place of a mesh that a new point is born at.
@@ -47,14 +70,31 @@ impl Birth {
 }
 
 impl Split {
+    /// Every split with its name in scheme files.
+    pub const NAMED: [(&'static str, Split); 8] = [
+        ("1-to-4", Split::OneToFour),
+        ("1-to-n", Split::OneToN),
+        ("dual", Split::Dual),
+        ("sqrt3", Split::Sqrt3),
+        ("sqrt2", Split::Sqrt2),
+        ("mid-edge", Split::MidEdge),
+        ("faces-to-vertices", Split::FacesToVertices),
+        ("keep", Split::Keep),
+    ];
+
     /// The split of this name in scheme files.
     pub fn named(name: &str) -> Option<Split> {
-        match name {
-            "1-to-4" => Some(Split::OneToFour),
-            "1-to-n" => Some(Split::OneToN),
-            "dual" => Some(Split::Dual),
-            _ => None,
-        }
+        Split::NAMED.iter().find(|(own, _)| *own == name).map(|(_, split)| *split)
+    }
+
+    /// Whether a vertex inside the mesh becomes a face.
+    pub fn makes_faces_of_vertices(self) -> bool {
+        matches!(self, Split::Dual | Split::MidEdge | Split::FacesToVertices)
+    }
+
+    /// Whether the boundary is refined by rules of its own; under other splits it recedes.
+    pub fn keeps_boundary(self) -> bool {
+        matches!(self, Split::OneToFour | Split::OneToN | Split::Keep)
     }
 
     /// The number of corners of the new mesh.
@@ -62,30 +102,60 @@ impl Split {
     /// # Errors
     /// When 32 bits don't number them.
     pub fn new_corners(self, mesh: &HalfEdgeMesh) -> Result<usize, NotAMesh> {
+        let old = mesh.twins().len();
         let corners = match self {
-            Split::OneToFour | Split::OneToN => mesh.twins().len().checked_mul(4),
+            Split::OneToFour | Split::OneToN => old.checked_mul(4),
             Split::Dual => dual::new_corners(mesh),
+            Split::Sqrt3 => old.checked_mul(3),
+            Split::Sqrt2 | Split::MidEdge => old.checked_mul(2),
+            Split::FacesToVertices | Split::Keep => Some(old),
         };
         corners.filter(|corners| *corners <= MAX_CORNERS).ok_or(NotAMesh::TooLarge)
     }
 
+    /// The edges' numbers, in the memory of a numbering that is done with, and what is kept near a receding boundary.
+    pub fn numbering(self, mesh: &HalfEdgeMesh, old: Numbering) -> Numbering {
+        let numbering = Numbering::in_buffers(mesh, old);
+        match self {
+            Split::Sqrt2 if !mesh.is_closed() => numbering.keeping(sqrt2::kept_vertices(mesh)),
+            Split::FacesToVertices if !mesh.is_closed() => numbering.keeping(faces_to_vertices::kept_faces(mesh)),
+            _ => numbering,
+        }
+    }
+
     /// The number of points of the new mesh.
     pub fn new_vertices(self, mesh: &HalfEdgeMesh, numbering: &Numbering) -> usize {
+        let kept = |all: usize| numbering.kept().map_or(all, <[u32]>::len);
         match self {
             Split::OneToFour => mesh.vertices() + numbering.edges(),
             Split::OneToN => mesh.vertices() + numbering.edges() + mesh.faces().len(),
             Split::Dual => mesh.twins().len(),
+            Split::Sqrt3 => mesh.vertices() + mesh.faces().len(),
+            Split::Sqrt2 => kept(mesh.vertices()) + mesh.faces().len(),
+            Split::MidEdge => numbering.edges(),
+            Split::FacesToVertices => kept(mesh.faces().len()),
+            Split::Keep => mesh.vertices(),
         }
     }
 
     /// Where a new point is born.
     pub fn birth(self, mesh: &HalfEdgeMesh, numbering: &Numbering, point: usize) -> Birth {
+        let kept = |index: usize| numbering.kept().map_or(index, |kept| kept[index] as usize);
+        let vertex = |vertex: usize| Birth::Vertex(mesh.vertex_edges()[vertex]);
+        let face = |face: usize| Birth::Face(mesh.faces().range(face).start as u32);
         let edges = mesh.vertices() + numbering.edges();
         match self {
             Split::Dual => Birth::Corner(point as u32),
-            _ if point < mesh.vertices() => Birth::Vertex(mesh.vertex_edges()[point]),
+            Split::MidEdge => Birth::Edge(numbering.first_corners()[point]),
+            Split::FacesToVertices => face(kept(point)),
+            Split::Sqrt2 => {
+                let vertices = numbering.kept().map_or(mesh.vertices(), <[u32]>::len);
+                if point < vertices { vertex(kept(point)) } else { face(point - vertices) }
+            }
+            _ if point < mesh.vertices() => vertex(point),
+            Split::Sqrt3 => face(point - mesh.vertices()),
             _ if point < edges => Birth::Edge(numbering.first_corners()[point - mesh.vertices()]),
-            _ => Birth::Face(mesh.faces().range(point - edges).start as u32),
+            _ => face(point - edges),
         }
     }
 
@@ -96,13 +166,18 @@ impl Split {
             Split::OneToFour => one_to_four::faces(faces, twins, vertices, numbering, buffer),
             Split::OneToN => one_to_n::faces(faces, twins, vertices, numbering, buffer),
             Split::Dual => dual::faces(mesh, numbering, buffer),
+            Split::Sqrt3 => sqrt3::faces(mesh, buffer),
+            Split::Sqrt2 => sqrt2::faces(mesh, numbering, buffer),
+            Split::MidEdge => mid_edge::faces(mesh, numbering, buffer),
+            Split::FacesToVertices => faces_to_vertices::faces(mesh, numbering, buffer),
+            Split::Keep => faces.clone(),
         }
     }
 
     /// The new faces of a mesh that is needed for nothing else: what they are not made of is given back first.
     pub fn last_faces(self, mesh: HalfEdgeMesh, numbering: Numbering) -> Faces {
-        if self == Split::Dual {
-            return dual::faces(&mesh, &numbering, Vec::new());
+        if !matches!(self, Split::OneToFour | Split::OneToN) {
+            return self.faces(&mesh, &numbering, Vec::new());
         }
         let (vertices, numbering) = (mesh.vertices(), numbering.without_first_corners());
         let (faces, twins) = mesh.into_faces_and_twins();
@@ -113,26 +188,93 @@ impl Split {
     }
 
     /// The new mesh, from its faces.
-    pub fn mesh(self, mesh: &HalfEdgeMesh, numbering: &Numbering, faces: Faces) -> HalfEdgeMesh {
+    ///
+    /// # Errors
+    /// Where a boundary that recedes leaves faces that hang together at a vertex only, or two faces on the same corners.
+    pub fn mesh(self, mesh: &HalfEdgeMesh, numbering: &Numbering, faces: Faces) -> Result<HalfEdgeMesh, NotAMesh> {
         let (twin, leaving) = match self {
             Split::OneToFour => (one_to_four::twins(mesh), one_to_four::leaving(mesh, numbering)),
             Split::OneToN => (one_to_n::twins(mesh), one_to_n::leaving(mesh, numbering)),
             Split::Dual => dual::twins_and_leaving(mesh, numbering, &faces),
+            Split::Keep => return Ok(mesh.clone()),
+            _ => return HalfEdgeMesh::new(self.new_vertices(mesh, numbering), faces),
         };
-        HalfEdgeMesh::from_parts(faces, twin, leaving)
+        Ok(HalfEdgeMesh::from_parts(faces, twin, leaving))
     }
 
-    /// The tags of the new mesh: an edge's two children have one step less of its sharpness, corners stay. A dual split has
-    /// no creases.
+    /// The tags of the new mesh: an edge's two children have one step less of its sharpness, corners stay. Splits under which the
+    /// boundary recedes have no creases.
     pub fn tags(self, mesh: &HalfEdgeMesh, tags: &Tags, new: &HalfEdgeMesh) -> Tags {
         let children: fn(&HalfEdgeMesh, u32) -> [u32; 2] = match self {
             Split::OneToFour => one_to_four::edge_children,
             Split::OneToN => one_to_n::edge_children,
-            Split::Dual => return Tags::default(),
+            Split::Keep => return tags.clone(),
+            _ => return Tags::default(),
         };
         let lasting = tags.creases().iter().filter(|(_, sharpness)| *sharpness > 1.0);
         let sharp = lasting.flat_map(|(edge, sharpness)| children(mesh, *edge).map(|child| (child, sharpness - 1.0)));
         Tags::of_children(new, sharp.collect(), tags.corners().to_vec())
+    }
+
+    /// What becomes of a vertex or face inside a mesh; nothing of a triangle under 1-to-4 and sqrt3 splits, and of what a receding
+    /// boundary takes away.
+    pub fn becoming(self, mesh: &HalfEdgeMesh) -> Becoming {
+        let closed = mesh.is_closed();
+        let inside = |vertex: &u32| mesh.twins()[mesh.vertex_edges()[*vertex as usize] as usize] != NONE;
+        let of_vertices = (!closed && self.makes_faces_of_vertices())
+            .then(|| places((0..mesh.vertices() as u32).filter(inside).collect(), mesh.vertices()));
+        let kept = match self {
+            Split::Sqrt2 if !closed => Some(places(sqrt2::kept_vertices(mesh), mesh.vertices())),
+            Split::FacesToVertices if !closed => Some(places(faces_to_vertices::kept_faces(mesh), mesh.faces().len())),
+            _ => None,
+        };
+        let offset = match self {
+            Split::Sqrt2 => kept.as_ref().map_or(mesh.vertices(), |kept| kept.iter().filter(|at| **at != NONE).count()),
+            Split::OneToN => mesh.vertices() + mesh.edge_count(),
+            Split::Dual => mesh.faces().len() + mesh.edges().filter(|h| mesh.twins()[*h as usize] != NONE).count(),
+            Split::MidEdge => mesh.faces().len(),
+            _ => 0,
+        };
+        Becoming { split: self, offset: offset as u32, of_vertices, kept }
+    }
+}
+
+/// Where each of some numbers stands in a list; [`NONE`] for those that are not in it.
+fn places(list: Vec<u32>, count: usize) -> Vec<u32> {
+    let mut at = vec![NONE; count];
+    list.iter().enumerate().for_each(|(index, number)| at[*number as usize] = index as u32);
+    at
+}
+
+/// What becomes of the vertices and faces of one mesh under a split.
+pub struct Becoming {
+    split: Split,
+    /// Where the points of faces, or the faces of vertices, start.
+    offset: u32,
+    /// The number of each vertex among those inside the mesh, where not all are.
+    of_vertices: Option<Vec<u32>>,
+    /// The number of each vertex or face among those that are kept, where not all are.
+    kept: Option<Vec<u32>>,
+}
+
+impl Becoming {
+    /// What one becomes; `None` where nothing does.
+    pub fn of(&self, centre: Centre) -> Option<Centre> {
+        let among = |list: &Option<Vec<u32>>, number: u32| match list {
+            Some(list) => Some(list[number as usize]).filter(|at| *at != NONE),
+            None => Some(number),
+        };
+        match (self.split, centre) {
+            (Split::Keep, _) | (Split::Dual | Split::MidEdge, Centre::Face(_)) => Some(centre),
+            (Split::OneToFour | Split::OneToN | Split::Sqrt3, Centre::Vertex(_)) => Some(centre),
+            (Split::OneToFour | Split::Sqrt3, Centre::Face(_)) => None,
+            (Split::OneToN | Split::Sqrt2, Centre::Face(face)) => Some(Centre::Vertex(self.offset + face)),
+            (Split::Sqrt2, Centre::Vertex(vertex)) => among(&self.kept, vertex).map(Centre::Vertex),
+            (Split::FacesToVertices, Centre::Face(face)) => among(&self.kept, face).map(Centre::Vertex),
+            (Split::Dual | Split::MidEdge | Split::FacesToVertices, Centre::Vertex(vertex)) => {
+                Some(Centre::Face(self.offset + among(&self.of_vertices, vertex)?))
+            }
+        }
     }
 }
 

@@ -15,6 +15,8 @@ pub struct Numbering {
     /// The first corner of each edge.
     first: Vec<u32>,
     edges: usize,
+    /// The vertices or faces that a receding boundary leaves, where not all.
+    kept: Option<Vec<u32>>,
 }
 
 impl Numbering {
@@ -53,7 +55,17 @@ impl Numbering {
                 }
             }
         });
-        Numbering { number, edges: first.len(), first }
+        Numbering { number, edges: first.len(), first, kept: None }
+    }
+
+    /// The same with a list of what a receding boundary leaves.
+    pub(super) fn keeping(self, kept: Vec<u32>) -> Numbering {
+        Numbering { kept: Some(kept), ..self }
+    }
+
+    /// The vertices or faces that a receding boundary leaves, where not all.
+    pub(super) fn kept(&self) -> Option<&[u32]> {
+        self.kept.as_deref()
     }
 
     /// The number of edges.

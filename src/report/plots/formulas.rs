@@ -7,7 +7,7 @@ use super::prettify::{lowered, name, pretty};
 use crate::refine::Obstacle;
 use crate::scheme::formula::Formula;
 use crate::scheme::vocabulary::RuleKind;
-use crate::scheme::{Cases, Entry, Pick, Place, Placed, RuleBook, Weights};
+use crate::scheme::{Cases, Entry, Pick, Place, Placed, Rule, RuleBook, Weights};
 use std::collections::BTreeMap;
 
 /// What is written beside a point.
@@ -37,13 +37,14 @@ impl<'a> Formulas<'a> {
     /// The weights of a rule at a count, by entry and index.
     pub(super) fn weights_of(
         &mut self,
+        rule: Option<&Rule>,
         kind: RuleKind,
         count: usize,
-        rule: &str,
+        told: &str,
     ) -> Result<BTreeMap<(usize, usize), Weight>, Obstacle> {
         let place = Place::<f64>::at(kind.variable(), count as i64);
         let mut written = BTreeMap::new();
-        let entries = self.book.rules.get(&kind).map_or(&[][..], |rule| &rule.entries);
+        let entries = rule.map_or(&[][..], |rule| &rule.entries);
         let sizes = entries.iter().map(|entry| crate::scheme::class_size(entry, kind, count as i64));
         self.longest = MAX_LETTERS[usize::from(sizes.sum::<usize>() >= MANY)];
         for (at, entry) in entries.iter().enumerate() {
@@ -61,7 +62,7 @@ impl<'a> Formulas<'a> {
                 };
                 written.insert((at, index), weight);
             }
-            self.note_other_cases(entry, selected, rule);
+            self.note_other_cases(entry, selected, told);
         }
         Ok(written)
     }

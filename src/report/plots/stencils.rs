@@ -10,7 +10,7 @@ use super::formulas::{Formulas, Weight};
 use super::labels::{Labelled, set};
 use crate::analysis::Analyzer;
 use crate::mesh::{Connectivity, Label, Lattice, PatchEdge};
-use crate::refine::{Obstacle, Refinement, Use};
+use crate::refine::{Obstacle, Pass, Refinement, Use};
 use crate::scheme::vocabulary::{Arrival, RuleKind};
 use num_complex::Complex64;
 use std::collections::{BTreeMap, BTreeSet};
@@ -39,8 +39,15 @@ pub(super) fn picture(analyzer: &Analyzer) -> Result<Picture, Obstacle> {
     let refinement: Refinement<f64> = Refinement::new(analyzer.scheme(), None);
     let mut formulas = Formulas::new(&analyzer.scheme().book);
     let mut panels = Vec::new();
-    for kind in analyzer.scheme().book.rules.keys().filter(|kind| !kind.is_boundary()) {
-        panels.extend(panel(analyzer.lattice(), *kind, &refinement, &mut formulas)?);
+    let passes = refinement.passes();
+    // one panel for each rule that is told in the file, however often its pass is made
+    for (index, pass) in passes.iter().enumerate() {
+        if passes[..index].iter().any(|before| std::ptr::eq(before.rules(), pass.rules())) {
+            continue;
+        }
+        for kind in pass.rules().keys().filter(|kind| !kind.is_boundary()) {
+            panels.extend(panel(analyzer.lattice(), *kind, pass, &mut formulas)?);
+        }
     }
     let notes: Vec<String> = formulas.notes().iter().flat_map(|note| wrapped(note, 1080, SMALL)).collect();
     let layout = Layout::of(panels.len(), notes.len());
@@ -117,14 +124,14 @@ fn place(lattice: Lattice, kind: RuleKind) -> Option<(Fan, Vec<PatchEdge>, Compl
 fn panel(
     lattice: Lattice,
     kind: RuleKind,
-    refinement: &Refinement<f64>,
+    pass: &Pass<f64>,
     formulas: &mut Formulas,
 ) -> Result<Option<Panel>, Obstacle> {
     let Some((fan, starts, new, title)) = place(lattice, kind) else { return Ok(None) };
-    let weights = formulas.weights_of(kind, starts.len(), &title)?;
+    let weights = formulas.weights_of(pass.rules().get(&kind), kind, starts.len(), &title)?;
     let mut panel = Panel { title, fan, new, spots: BTreeMap::new(), passed: BTreeSet::new() };
     panel.pass(&starts);
-    for used in refinement.uses(&panel.fan.patch, kind, &starts)? {
+    for used in pass.uses(&panel.fan.patch, kind, &starts)? {
         if let Some(weight) = weights.get(&(used.entry, used.index)) {
             panel.add(&used, weight.clone());
         }

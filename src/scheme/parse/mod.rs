@@ -5,12 +5,12 @@
 
 mod claims;
 mod names;
+mod passes;
 mod rules;
 mod values;
 
 use super::evaluate::Place;
 use super::formula::Formula;
-use super::vocabulary::{RuleKind, Vocabulary};
 use super::{Placed, RuleBook, Scheme, catalogue};
 use crate::fault::{Fault, Faults};
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,7 +22,7 @@ use toml::de::{DeTable, DeValue};
 pub const MAX_FILE_BYTES: usize = 1 << 16;
 
 /// Every key of a scheme file and of a boundary file, as the README's table lists them.
-pub const KEYS: [&str; 22] = [
+pub const KEYS: [&str; 24] = [
     "name",
     "mesh",
     "split",
@@ -39,6 +39,8 @@ pub const KEYS: [&str; 22] = [
     "edge.from-irregular-end",
     "face",
     "corner",
+    "pass",
+    "pass.repeat",
     "claims",
     "claims.what",
     "claims.where",
@@ -47,8 +49,8 @@ pub const KEYS: [&str; 22] = [
     "vertex.crease, vertex.corner, edge.crease",
 ];
 
-const SCHEME_KEYS: [&str; 11] =
-    ["name", "mesh", "split", "source", "boundary", "parameters", "let", "vertex", "edge", "face", "corner"];
+const SCHEME_KEYS: [&str; 12] =
+    ["name", "mesh", "split", "source", "boundary", "parameters", "let", "vertex", "edge", "face", "corner", "pass"];
 const BOUNDARY_KEYS: [&str; 6] = ["name", "source", "parameters", "let", "vertex", "edge"];
 const MESHES: [&str; 3] = ["triangles", "quads", "polygons"];
 
@@ -147,12 +149,8 @@ impl<'t> Reader<'t> {
         let known: Vec<&str> = SCHEME_KEYS.iter().copied().chain(["claims"]).collect();
         let items = self.items(top.get_ref(), &known, "a scheme file");
         let mesh = self.choice(&items, "mesh", &MESHES);
-        let vocabulary = Vocabulary::get();
-        let splits: Vec<&str> = vocabulary.splits.keys().map(String::as_str).collect();
-        let split = self.choice(&items, "split", &splits);
-        if let (Some(mesh), Some(split)) = (&mesh, &split) {
-            self.check_split(&items, mesh, split);
-        }
+        let several = self.find(&items, "pass");
+        let split = if several.is_some() { Some(String::new()) } else { self.split(&items, mesh.as_deref()) };
         let boundary = self.words(&items, "boundary");
         for (name, span) in &boundary {
             if !catalogue::BOUNDARIES.iter().any(|listed| listed.id == name) {
@@ -161,9 +159,14 @@ impl<'t> Reader<'t> {
                 self.faults.push(fault.hint(format!("the boundary files are {}", names.join(", "))));
             }
         }
-        let book = self.book(&items, origin, mesh.as_deref(), false)?;
-        if let (Some(split), Some((_, span))) = (&split, self.find(&items, "split")) {
-            self.check_births(&book, split, span);
+        let mut book = self.book(&items, origin, mesh.as_deref(), false)?;
+        if let Some((list, span)) = several {
+            self.nothing_beside_passes(&items);
+            book.passes = self.passes(&book, list, &span, mesh.as_deref());
+            // later passes meet whatever faces the first ones make
+            book.face_corners = None;
+        } else if let (Some(split), Some((_, span))) = (&split, self.find(&items, "split")) {
+            self.check_births(&book.rules, split, span);
         }
         let claims = self.claims(&items, &book);
         let boundary = boundary.into_iter().map(|(name, _)| name).collect();
@@ -193,14 +196,14 @@ impl<'t> Reader<'t> {
             parameters,
             lets,
             rules: BTreeMap::new(),
-            quads_only: mesh == Some("quads"),
+            passes: Vec::new(),
+            face_corners: match mesh {
+                Some("triangles") => Some(3),
+                Some("quads") => Some(4),
+                _ => None,
+            },
         };
-        for (key, span, value) in items {
-            let kind = RuleKind::ALL.iter().find(|(name, _)| name == key).map(|(_, kind)| *kind);
-            if let Some(kind) = kind {
-                self.rule(&mut book, kind, span, value, mesh, boundary);
-            }
-        }
+        book.rules = self.rules(&book, items, mesh, boundary);
         Some(book)
     }
 }

@@ -6,20 +6,34 @@ use super::{Item, Reader};
 use crate::fault::{Fault, nearest};
 use crate::scheme::vocabulary::{MAX_REACH, RuleKind, Vocabulary};
 use crate::scheme::{Entry, Pick, Rule, RuleBook, Weights};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeValue;
 
+/// The rules that have been read.
+type Rules = BTreeMap<RuleKind, Rule>;
+
 impl Reader<'_> {
-    pub(super) fn rule(
+    /// The rules among some items.
+    pub(super) fn rules(&mut self, book: &RuleBook, items: &[Item], mesh: Option<&str>, boundary: bool) -> Rules {
+        let mut rules = Rules::new();
+        for (key, span, value) in items {
+            let kind = RuleKind::ALL.iter().find(|(name, _)| name == key).map(|(_, kind)| *kind);
+            if let Some(kind) = kind {
+                self.rule(&mut rules, (book, mesh, boundary), kind, span, value);
+            }
+        }
+        rules
+    }
+
+    fn rule(
         &mut self,
-        book: &mut RuleBook,
+        rules: &mut Rules,
+        (book, mesh, boundary): (&RuleBook, Option<&str>, bool),
         kind: RuleKind,
         span: &Range<usize>,
         value: &Spanned<DeValue>,
-        mesh: Option<&str>,
-        boundary: bool,
     ) {
         let DeValue::Table(table) = value.get_ref() else {
             self.wrong_type(&value.span(), "a table of positions and weights", value.get_ref());
@@ -32,7 +46,7 @@ impl Reader<'_> {
             if let Some((_, inner)) =
                 RuleKind::ALL.iter().find(|(name, k)| *name == inner && k.is_boundary() == boundary)
             {
-                self.rule(book, *inner, &key_span, value, mesh, boundary);
+                self.rule(rules, (book, mesh, boundary), *inner, &key_span, value);
                 continue;
             }
             plain += 1;
@@ -42,7 +56,7 @@ impl Reader<'_> {
             self.faults.push(Fault::at(span.clone(), "a rule without weights", "empty").hint("leave the table out"));
         }
         if entries.len() == plain && plain > 0 {
-            book.rules.insert(kind, Rule { kind, entries, span: span.clone() });
+            rules.insert(kind, Rule { kind, entries, span: span.clone() });
         }
     }
 
@@ -125,7 +139,17 @@ impl Reader<'_> {
         self.faults.push(fault.hint(hint));
     }
 
-    pub(super) fn check_split(&mut self, items: &[Item], mesh: &str, split: &str) {
+    /// The split of a step or pass.
+    pub(super) fn split(&mut self, items: &[Item], mesh: Option<&str>) -> Option<String> {
+        let splits: Vec<&str> = Vocabulary::get().splits.keys().map(String::as_str).collect();
+        let split = self.choice(items, "split", &splits)?;
+        if let Some(mesh) = mesh {
+            self.check_split(items, mesh, &split);
+        }
+        Some(split)
+    }
+
+    fn check_split(&mut self, items: &[Item], mesh: &str, split: &str) {
         let takes = &Vocabulary::get().splits[split].meshes;
         if !takes.iter().any(|own| own == mesh) {
             let span = self.find(items, "split").map_or(0..0, |(_, span)| span);
@@ -135,15 +159,15 @@ impl Reader<'_> {
     }
 
     /// The split's rules are all there, and no other.
-    pub(super) fn check_births(&mut self, book: &RuleBook, split: &str, span: Range<usize>) {
+    pub(super) fn check_births(&mut self, rules: &Rules, split: &str, span: Range<usize>) {
         let births = &Vocabulary::get().splits[split].births;
         for birth in births {
-            if !book.rules.contains_key(birth) && self.faults.is_empty() {
+            if !rules.contains_key(birth) && self.faults.is_empty() {
                 let message = format!("the split `{split}` needs a rule [{}]", birth.name());
                 self.faults.push(Fault::at(span.clone(), message, "asked for by this split"));
             }
         }
-        for rule in book.rules.values() {
+        for rule in rules.values() {
             let told = if rule.kind == RuleKind::EdgeFromIrregularEnd { RuleKind::Edge } else { rule.kind };
             if !births.contains(&told) {
                 let message = format!("the split `{split}` makes no point for the rule [{}]", rule.kind.name());

@@ -1,0 +1,273 @@
+//! How is a mesh refined by a scheme whose step has several passes?
+//!
+//! Pass after pass. Each is refined in its own way; a [`Chain`] knows the meshes of some steps without any position, and how the points of the
+//! last are made of those of the first.
+
+use super::gather::Coordinate;
+use super::pass::{add_scaled, collected};
+use super::steps::PassRefiner;
+use super::{Buffers, Counts, Level, NotRefinable, Obstacle, Pass, Refined, Route, Row};
+use crate::mesh::{Centre, HalfEdgeMesh, Lattice, Numbering, Split, Tags};
+use crate::scheme::{RuleBook, Scheme};
+use std::borrow::Cow;
+
+/// A scheme with its boundary rules, ready to refine meshes.
+#[derive(Clone, Debug)]
+pub struct Refiner<'a> {
+    scheme: &'a Scheme,
+    boundary: Option<&'a RuleBook>,
+    passes: Vec<PassRefiner<'a>>,
+    lattice: Lattice,
+    steps: usize,
+}
+
+impl<'a> Refiner<'a> {
+    /// A scheme, with the rules of a boundary file where there is one.
+    ///
+    /// # Errors
+    /// When there is no topology for the scheme's splits, or they don't refine.
+    pub fn new(scheme: &'a Scheme, boundary: Option<&'a RuleBook>) -> Result<Refiner<'a>, NotRefinable> {
+        let told = scheme.passes().into_iter();
+        let passes = told.map(|told| PassRefiner::new(scheme, told, boundary)).collect::<Result<_, _>>()?;
+        let cycle = super::cycle_of(scheme)?;
+        Ok(Refiner { scheme, boundary, passes, lattice: cycle.lattice(), steps: cycle.steps })
+    }
+
+    /// The scheme.
+    pub fn scheme(&self) -> &'a Scheme {
+        self.scheme
+    }
+
+    /// The rules of the boundary file.
+    pub fn boundary(&self) -> Option<&'a RuleBook> {
+        self.boundary
+    }
+
+    /// The splits of a step.
+    pub fn splits(&self) -> impl Iterator<Item = Split> {
+        self.passes.iter().map(|pass| pass.split)
+    }
+
+    /// Whether extraordinary points are faces.
+    pub fn is_dual(&self) -> bool {
+        !self.lattice.has_centre()
+    }
+
+    /// The number of steps that bring the regular lattice back to itself.
+    pub fn steps_of_cycle(&self) -> usize {
+        self.steps
+    }
+
+    /// Whether the boundary is refined by rules of its own; else it recedes.
+    pub fn keeps_boundary(&self) -> bool {
+        self.splits().all(Split::keeps_boundary)
+    }
+
+    /// Whether every rule of the scheme inside the mesh is compact, so that points can be gathered.
+    pub fn is_compact(&self) -> bool {
+        matches!(self.passes.as_slice(), [pass] if pass.is_compact())
+    }
+
+    /// The parts of a mesh after a step.
+    pub fn counts_after(&self, counts: Counts) -> Counts {
+        self.splits().fold(counts, Counts::after)
+    }
+
+    /// The most bytes that are in use at one time during a step.
+    pub fn bytes_of_step<T: Coordinate>(&self, mut counts: Counts) -> u128 {
+        let mut most = 0;
+        for split in self.splits() {
+            most = most.max(counts.bytes_of_step::<T>(split));
+            counts = counts.after(split);
+        }
+        most
+    }
+
+    /// Checks that a step can be applied to a mesh.
+    ///
+    /// # Errors
+    /// The first face that is not fit.
+    pub fn fits(&self, mesh: &HalfEdgeMesh, tags: &Tags) -> Result<(), NotRefinable> {
+        let needed = match self.scheme.mesh.as_str() {
+            "triangles" => 3,
+            "quads" => 4,
+            _ => return self.passes.iter().take(1).try_for_each(|pass| pass.fits(mesh, tags)),
+        };
+        let odd = mesh.faces().iter().enumerate().find(|(_, face)| face.len() != needed);
+        match odd.filter(|_| mesh.faces().same_size() != Some(needed as u32)) {
+            Some((face, corners)) => Err(NotRefinable::Face { face, corners: corners.len(), needed }),
+            None => self.passes.iter().take(1).try_for_each(|pass| pass.fits(mesh, tags)),
+        }
+    }
+
+    /// One step.
+    ///
+    /// # Errors
+    /// When a split can't be applied, the new mesh is too large, or a point can't be made.
+    pub fn step<T: Coordinate>(&self, level: &Level<T>, route: Route) -> Result<Level<T>, NotRefinable> {
+        self.step_tracing(level, route, &mut [])
+    }
+
+    /// One step, in which some vertices and faces are followed: what they become, `None` where nothing.
+    ///
+    /// # Errors
+    /// As [`Refiner::step`].
+    pub fn step_tracing<T: Coordinate>(
+        &self,
+        level: &Level<T>,
+        route: Route,
+        centres: &mut [Option<Centre>],
+    ) -> Result<Level<T>, NotRefinable> {
+        self.fits(&level.mesh, &level.tags)?;
+        let mut at = Cow::Borrowed(level);
+        for pass in &self.passes {
+            if !centres.is_empty() {
+                let becoming = pass.split.becoming(&at.mesh);
+                centres.iter_mut().for_each(|centre| *centre = centre.and_then(|own| becoming.of(own)));
+            }
+            at = Cow::Owned(pass.step(&at, route)?);
+        }
+        Ok(at.into_owned())
+    }
+
+    /// The level before the last pass.
+    fn before_last<'l, T: Coordinate>(
+        &self,
+        level: &'l Level<T>,
+        route: Route,
+    ) -> Result<Cow<'l, Level<T>>, NotRefinable> {
+        self.fits(&level.mesh, &level.tags)?;
+        let mut at = Cow::Borrowed(level);
+        for pass in &self.passes[..self.passes.len() - 1] {
+            at = Cow::Owned(pass.step(&at, route)?);
+        }
+        Ok(at)
+    }
+
+    /// One step after which none follows: faces and points only.
+    ///
+    /// # Errors
+    /// As [`Refiner::step`].
+    pub fn last_step<T: Coordinate>(&self, level: &Level<T>, route: Route) -> Result<Refined<T>, NotRefinable> {
+        self.last_step_in(level, route, &mut Buffers::default())
+    }
+
+    /// The same, in memory that is there already.
+    ///
+    /// # Errors
+    /// As [`Refiner::step`].
+    pub fn last_step_in<T: Coordinate>(
+        &self,
+        level: &Level<T>,
+        route: Route,
+        buffers: &mut Buffers<T>,
+    ) -> Result<Refined<T>, NotRefinable> {
+        let before = self.before_last(level, route)?;
+        self.last_pass().last_step_in(&before, route, buffers)
+    }
+
+    /// A last step that uses its level up: what the faces don't need is given back before they are made.
+    ///
+    /// # Errors
+    /// As [`Refiner::step`].
+    pub fn finish<T: Coordinate>(&self, level: Level<T>, route: Route) -> Result<Refined<T>, NotRefinable> {
+        if self.passes.len() == 1 {
+            self.fits(&level.mesh, &level.tags)?;
+            return self.last_pass().finish(level, route);
+        }
+        let before = self.before_last(&level, route)?.into_owned();
+        drop(level);
+        self.last_pass().finish(before, route)
+    }
+
+    fn last_pass(&self) -> &PassRefiner<'a> {
+        &self.passes[self.passes.len() - 1]
+    }
+
+    /// The rows of all new points of a step, in order: how each is made of the old ones.
+    ///
+    /// # Errors
+    /// As [`Refiner::step`].
+    pub fn rows(&self, mesh: &HalfEdgeMesh, tags: &Tags) -> Result<Vec<Row<u32, f64>>, NotRefinable> {
+        self.fits(mesh, tags)?;
+        let chain = self.chain(mesh, tags, 1)?;
+        (0..chain.mesh.vertices() as u32).map(|point| Ok(chain.row(point)?)).collect()
+    }
+
+    /// The meshes of some steps.
+    ///
+    /// # Errors
+    /// When a split can't be applied, or the new mesh is too large.
+    pub fn chain(&self, mesh: &HalfEdgeMesh, tags: &Tags, steps: usize) -> Result<Chain<'a>, NotRefinable> {
+        let mut chain = Chain { links: Vec::new(), mesh: mesh.clone(), tags: tags.clone() };
+        for pass in self.passes.iter().cycle().take(self.passes.len() * steps) {
+            pass.split.new_corners(&chain.mesh)?;
+            let numbering = pass.split.numbering(&chain.mesh, Numbering::default());
+            let faces = pass.split.faces(&chain.mesh, &numbering, Vec::new());
+            let mesh = pass.split.mesh(&chain.mesh, &numbering, faces)?;
+            let tags = pass.split.tags(&chain.mesh, &chain.tags, &mesh);
+            let old = (std::mem::replace(&mut chain.mesh, mesh), std::mem::replace(&mut chain.tags, tags));
+            chain.links.push(Link { split: pass.split, rules: pass.rules(), mesh: old.0, tags: old.1, numbering });
+        }
+        Ok(chain)
+    }
+}
+
+/// One pass of a chain, with the mesh that it starts from.
+struct Link<'a> {
+    split: Split,
+    rules: Pass<'a, f64>,
+    mesh: HalfEdgeMesh,
+    tags: Tags,
+    numbering: Numbering,
+}
+
+/// The meshes of some steps, without positions.
+pub struct Chain<'a> {
+    links: Vec<Link<'a>>,
+    /// The last mesh.
+    pub mesh: HalfEdgeMesh,
+    /// Its tags.
+    pub tags: Tags,
+}
+
+impl Chain<'_> {
+    /// How a point of the last mesh is made of those of the first.
+    ///
+    /// # Errors
+    /// When a point can't be made.
+    pub fn row(&self, point: u32) -> Result<Row<u32, f64>, Obstacle> {
+        let mut row = vec![(point, 1.0)];
+        for link in self.links.iter().rev() {
+            let born = |point: u32| {
+                let birth = link.split.birth(&link.mesh, &link.numbering, point as usize);
+                link.rules.row_of_birth(&link.mesh, &link.tags, birth)
+            };
+            row = match row.as_slice() {
+                [(only, 1.0)] => born(*only)?,
+                several => {
+                    let mut sum = Vec::new();
+                    for (point, weight) in several {
+                        add_scaled(&mut sum, &born(*point)?, weight)?;
+                    }
+                    collected(sum)?
+                }
+            };
+        }
+        Ok(row)
+    }
+
+    /// What a vertex or face of the first mesh becomes in the last.
+    pub fn becomes(&self, centre: Centre) -> Option<Centre> {
+        self.links.iter().try_fold(centre, |centre, link| link.split.becoming(&link.mesh).of(centre))
+    }
+
+    /// The point on an edge of the first mesh, as the first pass numbers it; `None` where the splits are not such that a point of an edge
+    /// stays where it is.
+    pub fn point_on_edge(&self, first_corner: u32) -> Option<u32> {
+        let [link, rest @ ..] = self.links.as_slice() else { return None };
+        let stays = rest.iter().all(|link| link.split == Split::Keep);
+        let on_edges = matches!(link.split, Split::OneToFour | Split::OneToN) && stays;
+        on_edges.then(|| link.mesh.vertices() as u32 + link.numbering.of_first(first_corner))
+    }
+}
