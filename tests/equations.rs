@@ -3,6 +3,7 @@
 
 use eigenring::analysis::{Analysis, Analyzer};
 use eigenring::numbers::RootsOfUnity;
+use eigenring::refine::is_dual;
 use eigenring::scheme::{Scheme, catalogue};
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
@@ -256,7 +257,7 @@ fn at_the_regular_valence_the_characteristic_map_is_the_lattice() {
         let (along, over) = (roots.get(0), roots.get(1));
         for (orbit, point) in analysis.local.orbits.iter().zip(&analysis.map.as_ref().unwrap().net) {
             let (i, j) = (f64::from(orbit.0), f64::from(orbit.1));
-            let lattice = if scheme.is_dual() {
+            let lattice = if is_dual(&scheme) {
                 // corner 0 lies at 1, half-way between the axes of the lattice
                 Complex64::new(1.0 + i + j, -i + j)
             } else {

@@ -67,6 +67,8 @@ pub enum NotRefinable {
     TwoEdges(usize),
     /// A mesh with a boundary, under a split that has no rule for it.
     Boundary(String),
+    /// A boundary that recedes, and leaves faces that make no mesh.
+    Receding(NotAMesh),
     /// A split that there is no topology for.
     Split(String),
     /// The new mesh is too large.
@@ -90,6 +92,9 @@ impl fmt::Display for NotRefinable {
             }
             NotRefinable::Boundary(name) => {
                 write!(f, "the mesh has a boundary, and the split {name} has no rules for one")
+            }
+            NotRefinable::Receding(wrong) => {
+                write!(f, "under this split the boundary recedes, and the faces that are left make no mesh: {wrong}")
             }
             NotRefinable::Split(name) => write!(f, "the split {name} can't be applied to meshes"),
             NotRefinable::Mesh(wrong) => write!(f, "{wrong}"),
@@ -188,7 +193,7 @@ impl<'a> PassRefiner<'a> {
     pub(super) fn step<T: Coordinate>(&self, level: &Level<T>, route: Route) -> Result<Level<T>, NotRefinable> {
         let mut buffers = Buffers::default();
         let Refined { faces, positions } = self.last_step_in(level, route, &mut buffers)?;
-        let mesh = self.split.mesh(&level.mesh, &buffers.numbering, faces)?;
+        let mesh = self.split.mesh(&level.mesh, &buffers.numbering, faces).map_err(NotRefinable::Receding)?;
         let tags = self.split.tags(&level.mesh, &level.tags, &mesh);
         Ok(Level { mesh, positions, tags })
     }

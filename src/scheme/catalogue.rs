@@ -24,15 +24,18 @@ macro_rules! listed {
 }
 
 /// Every scheme of the catalogue.
-pub const SCHEMES: [Listed; 10] = listed! {
+pub const SCHEMES: [Listed; 13] = listed! {
     "loop" => "triangle/loop.toml",
     "loop-warren" => "triangle/loop-warren.toml",
     "butterfly" => "triangle/butterfly.toml",
     "modified-butterfly" => "triangle/modified-butterfly.toml",
+    "loop-averaging" => "triangle/loop-averaging.toml",
     "sqrt3" => "triangle/sqrt3.toml",
     "catmull-clark" => "quad/catmull-clark.toml",
     "doo-sabin" => "quad/doo-sabin.toml",
     "catmull-clark-biquadratic" => "quad/catmull-clark-biquadratic.toml",
+    "kobbelt" => "quad/kobbelt.toml",
+    "four-eight" => "quad/four-eight.toml",
     "mid-edge" => "quad/mid-edge.toml",
     "midpoint" => "quad/midpoint.toml",
 };

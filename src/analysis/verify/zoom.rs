@@ -17,7 +17,9 @@ use crate::mesh::{
     Centre, Connectivity, Crease, Faces, Fan, FanKind, HalfEdgeMesh, Label, Lattice, Patch, Tags, disc, edge_between,
     first_corner,
 };
+use crate::numbers::RootsOfUnity;
 use crate::refine::{Chain, NotRefinable, Obstacle, Refiner, applied as row_applied, lattice_of};
+use num_complex::Complex64;
 use std::collections::BTreeSet;
 
 /// A neighbourhood that is looked at through a growing glass.
@@ -92,7 +94,13 @@ impl<'r, 'a> Zoom<'r, 'a> {
     pub(super) fn apply(&self, mask: &LabelledMask, origin: [f64; 3]) -> [f64; 3] {
         let spokes: Vec<u32> = match self.middle {
             1 => self.ring.iter().filter_map(|at| edge_between(&self.mesh, [0, *at as u32])).collect(),
-            _ => self.mesh.faces().range(0).map(|h| h as u32).collect(),
+            // from the corner that is the first of the ring
+            _ => {
+                let corners: Vec<u32> = self.mesh.faces().range(0).map(|h| h as u32).collect();
+                let is_first = |h: &u32| self.mesh.origin(*h) as usize == self.ring[0];
+                let first = corners.iter().position(is_first).unwrap_or(0);
+                [&corners[first..], &corners[..first]].concat()
+            }
         };
         let lattice = lattice_of(self.refiner.scheme());
         let mut sum = [0.0; 3];
@@ -130,12 +138,16 @@ impl<'r, 'a> Zoom<'r, 'a> {
     fn refine(&mut self) -> Result<(), NotRefinable> {
         let chain = self.refiner.chain(&self.mesh, &self.tags, self.refiner.steps_of_cycle())?;
         let middle = if self.middle > 1 { Centre::Face(0) } else { Centre::Vertex(0) };
-        let kept = self.kept(&chain.mesh, chain.becomes(middle).unwrap_or(middle));
+        let centre = chain.becomes(middle).unwrap_or(middle);
+        let kept = self.kept(&chain.mesh, centre);
         let point = |vertex: &u32| Ok(row_applied(&chain.row(*vertex)?, &self.points));
         let points = kept.iter().map(point).collect::<Result<Vec<_>, Obstacle>>()?;
-        let ring = self.next_ring(&chain, &kept);
-        (self.mesh, self.tags) = cropped(&chain.mesh, &chain.tags, &kept)?;
-        self.ring = ring.unwrap_or_else(|| self.nearest_ring(&points));
+        let ring = match self.next_ring(&chain, &kept) {
+            Some(ring) => ring,
+            None => self.nearest_ring(&chain, centre, &kept)?,
+        };
+        (self.mesh, self.tags) = cropped(&chain.mesh, &chain.tags, &kept, self.middle)?;
+        self.ring = ring;
         self.points = points;
         Ok(())
     }
@@ -150,33 +162,32 @@ impl<'r, 'a> Zoom<'r, 'a> {
         if self.middle > 1 { None } else { self.ring.iter().map(on_edge).collect() }
     }
 
-    /// The neighbours of the centre in the cropped mesh (dual: the corners of its face), counter-clockwise from the one whose direction, with that of
-    /// all that follow, is nearest to the last ring's: under splits that move points off the old edges.
-    fn nearest_ring(&self, points: &[[f64; 3]]) -> Vec<usize> {
-        let own: Vec<usize> = match self.middle {
-            1 => {
-                let around = self.mesh.around_vertex(self.mesh.vertex_edges()[0]);
-                around.into_iter().map(|spoke| self.mesh.target(spoke) as usize).collect()
+    /// The new neighbours of the centre (dual: the corners of its face), among those that are kept, counter-clockwise from the one that lies in
+    /// the direction of the old ring's first, by the weights that its row gives to the old ring.
+    fn nearest_ring(&self, chain: &Chain, centre: Centre, kept: &[u32]) -> Result<Vec<usize>, Obstacle> {
+        let mesh = &chain.mesh;
+        let own: Vec<u32> = match centre {
+            Centre::Vertex(vertex) => mesh
+                .around_vertex(mesh.vertex_edges()[vertex as usize])
+                .iter()
+                .map(|spoke| mesh.target(*spoke))
+                .collect(),
+            Centre::Face(face) => mesh.faces().face(face as usize).to_vec(),
+        };
+        let roots = RootsOfUnity::new(self.ring.len());
+        let mut first = (f64::NEG_INFINITY, 0);
+        for (at, vertex) in own.iter().enumerate() {
+            let weights = chain.row(*vertex)?;
+            let spoke = |point: u32| self.ring.iter().position(|own| *own == point as usize);
+            let towards = |(point, weight): &(u32, f64)| Some(roots.get(spoke(*point)? as i64) * *weight);
+            let direction: Complex64 = weights.iter().filter_map(towards).sum();
+            let cosine = direction.re / direction.norm_sqr().sqrt();
+            if cosine > first.0 {
+                first = (cosine, at);
             }
-            _ => self.mesh.faces().face(0).iter().map(|corner| *corner as usize).collect(),
-        };
-        let n = own.len();
-        let mean = |points: &[[f64; 3]]| {
-            [0, 1].map(|axis| points[..self.middle].iter().map(|p| p[axis]).sum::<f64>() / self.middle as f64)
-        };
-        let (old, new) = (mean(&self.points), mean(points));
-        let plane = |p: [f64; 3], centre: [f64; 2]| [p[0] - centre[0], p[1] - centre[1]];
-        let alike = |turn: usize| {
-            let pairs = self.ring.iter().zip((0..n).map(|at| own[(at + turn) % n]));
-            pairs
-                .map(|(a, b)| {
-                    let (a, b) = (plane(self.points[*a], old), plane(points[b], new));
-                    a[0] * b[0] + a[1] * b[1]
-                })
-                .sum::<f64>()
-        };
-        let turn = (0..n).max_by(|a, b| alike(*a).total_cmp(&alike(*b))).unwrap_or(0);
-        (0..n).map(|at| own[(at + turn) % n]).collect()
+        }
+        let place = |vertex: &u32| kept.iter().position(|own| own == vertex).unwrap_or(0);
+        Ok((0..own.len()).map(|at| place(&own[(first.1 + at) % own.len()])).collect())
     }
 
     /// The vertices within the rings: the centre first (dual: the corners of the central face), then in order.
@@ -349,10 +360,18 @@ fn tags_of(mesh: &HalfEdgeMesh, labels: &[Label], place: Place) -> Result<Tags, 
 }
 
 /// The mesh of some vertices and of the faces between them, with its tags.
-fn cropped(fine: &HalfEdgeMesh, tags: &Tags, kept: &[u32]) -> Result<(HalfEdgeMesh, Tags), NotRefinable> {
+/// The faces on the vertices that are kept; dual: the central face, on the first `middle` of them, first.
+fn cropped(
+    fine: &HalfEdgeMesh,
+    tags: &Tags,
+    kept: &[u32],
+    middle: usize,
+) -> Result<(HalfEdgeMesh, Tags), NotRefinable> {
     let mut number = vec![u32::MAX; fine.vertices()];
     kept.iter().enumerate().for_each(|(at, vertex)| number[*vertex as usize] = at as u32);
-    let inside = fine.faces().iter().filter(|face| face.iter().all(|vertex| number[*vertex as usize] != u32::MAX));
+    let is_kept = |face: &&[u32]| face.iter().all(|vertex| number[*vertex as usize] != u32::MAX);
+    let mut inside: Vec<&[u32]> = fine.faces().iter().filter(is_kept).collect();
+    inside.sort_by_key(|face| **face != kept[..middle]);
     let (mut sizes, mut corners) = (Vec::new(), Vec::new());
     for face in inside {
         sizes.push(face.len() as u32);

@@ -119,6 +119,10 @@ impl Split {
         match self {
             Split::Sqrt2 if !mesh.is_closed() => numbering.keeping(sqrt2::kept_vertices(mesh)),
             Split::FacesToVertices if !mesh.is_closed() => numbering.keeping(faces_to_vertices::kept_faces(mesh)),
+            Split::MidEdge if !mesh.is_closed() => {
+                let parting = mid_edge::parting_edges(mesh, &numbering);
+                numbering.keeping(parting)
+            }
             _ => numbering,
         }
     }
@@ -132,7 +136,7 @@ impl Split {
             Split::Dual => mesh.twins().len(),
             Split::Sqrt3 => mesh.vertices() + mesh.faces().len(),
             Split::Sqrt2 => kept(mesh.vertices()) + mesh.faces().len(),
-            Split::MidEdge => numbering.edges(),
+            Split::MidEdge => numbering.edges() + numbering.kept().map_or(0, <[u32]>::len),
             Split::FacesToVertices => kept(mesh.faces().len()),
             Split::Keep => mesh.vertices(),
         }
@@ -146,7 +150,10 @@ impl Split {
         let edges = mesh.vertices() + numbering.edges();
         match self {
             Split::Dual => Birth::Corner(point as u32),
-            Split::MidEdge => Birth::Edge(numbering.first_corners()[point]),
+            Split::MidEdge => {
+                let edge = point.checked_sub(numbering.edges()).map_or(point, kept);
+                Birth::Edge(numbering.first_corners()[edge])
+            }
             Split::FacesToVertices => face(kept(point)),
             Split::Sqrt2 => {
                 let vertices = numbering.kept().map_or(mesh.vertices(), <[u32]>::len);

@@ -15,7 +15,7 @@ pub struct Numbering {
     /// The first corner of each edge.
     first: Vec<u32>,
     edges: usize,
-    /// The vertices or faces that a receding boundary leaves, where not all.
+    /// The vertices or faces that a receding boundary leaves, where not all; the edges where it parts faces.
     kept: Option<Vec<u32>>,
 }
 
@@ -63,7 +63,7 @@ impl Numbering {
         Numbering { kept: Some(kept), ..self }
     }
 
-    /// The vertices or faces that a receding boundary leaves, where not all.
+    /// The vertices or faces that a receding boundary leaves, where not all; the edges where it parts faces.
     pub(super) fn kept(&self) -> Option<&[u32]> {
         self.kept.as_deref()
     }

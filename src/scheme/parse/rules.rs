@@ -175,7 +175,7 @@ impl Reader<'_> {
             }
             for entry in &rule.entries {
                 let Some(born) = entry.position.births() else { continue };
-                if !births.contains(&born) || born == rule.kind {
+                if !births.contains(&born) || born == rule.kind || makes_each_other(rules, rule.kind, born) {
                     let message =
                         format!("`{}` has no points here: they are not made before this rule", entry.position.name);
                     self.faults.push(Fault::at(entry.span.clone(), message, format!("in [{}]", rule.kind.name())));
@@ -183,4 +183,15 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// Whether the points of two rules are made of each other's.
+fn makes_each_other(rules: &Rules, a: RuleKind, b: RuleKind) -> bool {
+    let kinds = |kind: RuleKind| {
+        let told = move |rule: &&Rule| {
+            rule.kind == kind || (kind, rule.kind) == (RuleKind::Edge, RuleKind::EdgeFromIrregularEnd)
+        };
+        rules.values().filter(told).flat_map(|rule| &rule.entries).filter_map(|entry| entry.position.births())
+    };
+    kinds(a).any(|born| born == b) && kinds(b).any(|born| born == a)
 }
