@@ -90,7 +90,7 @@ fn traced(refinement: &Refinement<f64>, fan: Fan, levels: u32) -> BTreeSet<Label
     };
     let mut points: BTreeSet<Label> = on_faces(1 << levels).collect();
     for _ in 0..levels {
-        let rows = points.iter().flat_map(|label| refinement.row_at(&fan, fan.birth(*label)).unwrap());
+        let rows = points.iter().flat_map(|label| refinement.row(&fan, *label).unwrap());
         points = rows.map(|(old, _)| old).collect();
     }
     points
@@ -291,10 +291,10 @@ impl Piece {
             let ends = [fan.origin(edge), fan.target(edge)].map(|end| self.vertices[&end]);
             edge_between(&self.mesh, ends).unwrap()
         };
-        match fan.birth(label) {
-            Site::Vertex(at) => refinement.vertex_row(&mesh, edge(at)),
-            Site::Edge(at) => refinement.edge_row(&mesh, edge(at)),
-            Site::Face(at) => refinement.face_row(&mesh, edge(at)),
+        match fan.birth(&refinement.cycle().unwrap().placements[0], label) {
+            Site::Vertex(at) => refinement.passes()[0].vertex_row(&mesh, edge(at)),
+            Site::Edge(at) => refinement.passes()[0].edge_row(&mesh, edge(at)),
+            Site::Face(at) => refinement.passes()[0].face_row(&mesh, edge(at)),
             Site::Corner(_) => panic!("no corners here"),
         }
         .unwrap()

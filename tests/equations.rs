@@ -179,13 +179,22 @@ fn vectors_keep_their_equations() {
                 "{at}: left of {e:?}"
             );
             assert!(
-                left.dot(&right).norm() > 1e-6,
+                left.dot(&right).norm() > 1e-6 || e.approx_error > 1e-10,
                 "{at}: the vectors of a simple eigenvalue are not orthogonal, {e:?}"
             );
             seen += 1;
         }
         assert!(seen >= 2, "{at}");
     });
+}
+
+/// The subdominant eigenvalue; that of two schemes is not of frequency 1, or has a Jordan block, at some valences.
+fn lambda_at(at: &str, analysis: &Analysis) -> Option<f64> {
+    let lambda = analysis.lambda.map(|lambda| lambda.value.re);
+    let none = at.starts_with("butterfly") && (analysis.valence == 3 || analysis.valence >= 8);
+    let degenerate = at.starts_with("mid-edge") && analysis.valence == 3;
+    assert_eq!(lambda.is_none(), none || degenerate, "{at}");
+    lambda
 }
 
 /// u S = lambda u over the whole matrix, and so a mask survives a refinement step.
@@ -199,7 +208,7 @@ fn masks_survive_a_refinement_step() {
         assert!((limit.sum() - 1.0).abs() < 1e-14, "{at}");
         assert!((s.transpose() * &limit - &limit).amax() < 1e-14, "{at}");
         assert!((limit.dot(&points) - limit.dot(&refined)).abs() < 1e-13, "{at}");
-        let lambda = analysis.lambda.unwrap().value.re;
+        let Some(lambda) = lambda_at(at, analysis) else { return };
         for mask in analysis.tangent_masks.as_ref().unwrap() {
             let tangent = row_vector(analysis, mask);
             assert!(tangent.sum().abs() < 1e-13, "{at}: a tangent mask of constants is zero");
@@ -220,7 +229,7 @@ fn refined_points_converge_to_the_limit_that_the_mask_says() {
             points = &s * points;
         }
         let error = points.iter().map(|x| (x - limit).abs()).fold(0.0, f64::max);
-        let lambda = analysis.lambda.unwrap().value.re;
+        let lambda = analysis.spectrum.subdominant().unwrap().modulus();
         assert!(error < 100.0 * lambda.powi(70) + 1e-13, "{at}: {error}");
     });
 }
@@ -229,6 +238,9 @@ fn refined_points_converge_to_the_limit_that_the_mask_says() {
 fn tangent_masks_have_their_normal_form() {
     everywhere(|at, _, analysis| {
         let n = analysis.valence;
+        if lambda_at(at, analysis).is_none() {
+            return;
+        }
         let [cosine, sine] = analysis.tangent_masks.as_ref().unwrap();
         let roots = RootsOfUnity::new(n);
         for sector in 0..n as u32 {
@@ -277,6 +289,9 @@ fn jacobians_agree_with_finite_differences() {
         let analyzer = Analyzer::new(&scheme).unwrap();
         for n in [3, 5, 8] {
             let analysis = analyzer.at(n).unwrap();
+            if lambda_at(&format!("{} at n = {n}", scheme.id), &analysis).is_none() {
+                continue;
+            }
             let (_, samples) = analyzer.picture_of_map(&analysis, 2).unwrap().unwrap().samples.unwrap();
             let at = |i: i32, j: i32| samples.iter().find(|sample| sample.at == (i, j));
             let mut ratios = Vec::new();

@@ -113,7 +113,8 @@ fn mutants(listed: Listed) -> Vec<(String, String)> {
     let mut mutants = Vec::new();
     let mut start = 0;
     for line in listed.text[..end].split_inclusive('\n') {
-        let code = line.split('#').next().unwrap_or("");
+        // a range of values says nothing of the weights
+        let code = line.split('#').next().unwrap_or("").split("integer").next().unwrap_or("");
         let header = ["name", "mesh", "split", "source", "boundary"].iter().any(|key| code.starts_with(key));
         for (at, digit) in code.char_indices().filter(|(_, c)| !header && c.is_ascii_digit()) {
             let last = !code[at + 1..].starts_with(|c: char| c.is_ascii_digit());

@@ -11,7 +11,7 @@ fn open(id: &str) -> Scheme {
 }
 
 fn row_on(scheme: &Scheme, patch: Patch, label: Label) -> Row<Label, f64> {
-    Refinement::new(scheme, None).row_at(&patch, patch.birth(label)).unwrap()
+    Refinement::new(scheme, None).row(&patch, label).unwrap()
 }
 
 fn weight(row: &Row<Label, f64>, sector: u32, i: i32, j: i32) -> f64 {
@@ -76,7 +76,7 @@ fn between_two_irregular_ends_the_results_are_averaged() {
     let scheme = open("modified-butterfly");
     let refinement = Refinement::<f64>::new(&scheme, None);
     for edge in mesh.edges() {
-        let row = refinement.edge_row(&mesh, edge).unwrap();
+        let row = refinement.passes()[0].edge_row(&mesh, edge).unwrap();
         let at = |point: u32| row.iter().find(|(own, _)| *own == point).map_or(0.0, |(_, weight)| *weight);
         assert!((row.iter().map(|(_, weight)| weight).sum::<f64>() - 1.0).abs() < 1e-15);
         for end in [mesh.origin(edge), mesh.target(edge)] {
@@ -112,17 +112,17 @@ fn loop_with_the_cubic_boundary_makes_rows_on_a_mesh() {
     assert_eq!(scheme.boundary, ["cubic"]);
     boundary.check(&[1, 2, 3], 6).unwrap();
     let refinement = Refinement::<f64>::new(&scheme, Some(&boundary));
-    let rows: Vec<_> = mesh.vertex_edges().iter().map(|edge| refinement.vertex_row(&mesh, *edge).unwrap()).collect();
+    let rows: Vec<_> = mesh.vertex_edges().iter().map(|edge| refinement.passes()[0].vertex_row(&mesh, *edge).unwrap()).collect();
     assert_eq!(rows[0].len(), 5, "an interior vertex of valence 4");
     assert_eq!(rows[1], [(1, 0.75), (4, 0.125), (5, 0.125)], "a boundary vertex of three faces");
     assert_eq!(rows[5], [(1, 0.125), (2, 0.125), (5, 0.75)], "a boundary vertex of one face");
     let tags = Tags::new(&mesh, &[], &[5]).unwrap();
     let tagged = Tagged { mesh: &mesh, tags: &tags, beyond: 0.0 };
-    let corner = refinement.vertex_row(&tagged, mesh.vertex_edges()[5]).unwrap();
+    let corner = refinement.passes()[0].vertex_row(&tagged, mesh.vertex_edges()[5]).unwrap();
     assert_eq!(corner, [(5, 1.0)]);
     let (mut inside, mut border) = (0, 0);
     for edge in mesh.edges() {
-        let row = refinement.edge_row(&mesh, edge).unwrap();
+        let row = refinement.passes()[0].edge_row(&mesh, edge).unwrap();
         assert_eq!(row.iter().map(|(_, weight)| weight).sum::<f64>(), 1.0);
         let weights: Vec<f64> = row.iter().map(|(_, weight)| *weight).collect();
         match weights.len() {
@@ -131,7 +131,7 @@ fn loop_with_the_cubic_boundary_makes_rows_on_a_mesh() {
         }
     }
     assert_eq!((inside, border), (5, 5));
-    let without = Refinement::<f64>::new(&scheme, None).vertex_row(&mesh, mesh.vertex_edges()[1]);
+    let without = Refinement::<f64>::new(&scheme, None).passes()[0].vertex_row(&mesh, mesh.vertex_edges()[1]);
     assert_eq!(without, Err(Obstacle::NoRule("vertex.crease")));
 }
 

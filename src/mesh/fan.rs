@@ -120,7 +120,10 @@ impl Fan {
 
     /// Where a split puts the point `label` of the refined fan, as on the patch; one that turns the lattice has no fans.
     pub fn birth(&self, placement: &Placement, label: Label) -> Site {
-        placement.birth(label).1
+        placement.birth(label).1.mapped(|edge| {
+            let at_centre = self.lattice.is_centre(edge.origin);
+            if at_centre { PatchEdge { origin: self.centre(), direction: 0 } } else { edge }
+        })
     }
 
     /// The half-edge that leaves the centre along a spoke.

@@ -239,7 +239,12 @@ impl Patch {
     /// Where a split puts the point `label` of the refined patch.
     pub fn birth(&self, placement: &Placement, label: Label) -> Site {
         let (shift, site) = placement.birth(label);
-        site.mapped(|edge| PatchEdge { origin: self.moved(edge.origin, shift), ..edge })
+        site.mapped(|edge| match self.centre() {
+            Some(centre) if self.is_centre(edge.origin) => {
+                PatchEdge { origin: centre, direction: self.shifted(edge.origin.sector, shift) }
+            }
+            _ => PatchEdge { origin: self.moved(edge.origin, shift), ..edge },
+        })
     }
 
     fn moved(&self, label: Label, sectors: i32) -> Label {

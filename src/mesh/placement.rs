@@ -75,14 +75,16 @@ impl Placement {
         UNIT * UNIT / (a * d - b * c)
     }
 
-    /// The birth of a point of the refined lattice: the site, in a sector that lies some sectors on.
+    /// The birth of a point of the refined lattice: the site, in a sector that lies some sectors on. A half-edge that leaves the centre is told
+    /// as that of the sector's spoke.
     pub(super) fn birth(&self, label: Label) -> (i32, Site) {
         let half = i32::from(!self.to.has_centre());
         // twice the refined coordinates, to be whole on the dual lattice
         let (u, v) = (2 * label.i + half, 2 * label.j + half);
         let [x, y] = self.map.map(|[a, b]| (a * u + b * v) / 2);
         let (shift, x, y) = unfold(self.from, x, y);
-        (shift, site(self.from, label.sector, x, y))
+        let (more, site) = site(self.from, label.sector, x, y);
+        (shift + more, site)
     }
 }
 
@@ -101,17 +103,14 @@ fn unfold(lattice: Lattice, mut x: i32, mut y: i32) -> (i32, i32, i32) {
     }
 }
 
-/// What lies at a place of the coarse lattice.
-fn site(lattice: Lattice, sector: u32, x: i32, y: i32) -> Site {
-    if lattice.has_centre() && x == 0 && y == 0 {
-        return Site::Vertex(PatchEdge { origin: Label { sector: 0, i: 0, j: 0 }, direction: 0 });
-    }
+/// What lies at a place of the coarse lattice, and how many sectors on.
+fn site(lattice: Lattice, sector: u32, x: i32, y: i32) -> (i32, Site) {
     let offset = if lattice.has_centre() { 0 } else { UNIT / 2 };
     let (x, y) = (x - offset, y - offset);
     let (i, j) = (x.div_euclid(UNIT), y.div_euclid(UNIT));
     let from = |i: i32, j: i32, direction: u32| PatchEdge { origin: Label { sector, i, j }, direction };
     const HALF: i32 = UNIT / 2;
-    match (lattice, x.rem_euclid(UNIT), y.rem_euclid(UNIT)) {
+    let site = match (lattice, x.rem_euclid(UNIT), y.rem_euclid(UNIT)) {
         (_, 0, 0) => Site::Vertex(from(i, j, 0)),
         (Lattice::Triangles, HALF, 0) => Site::Edge(from(i + 1, j, 3)),
         (Lattice::Triangles, 0, HALF) => Site::Edge(from(i, j + 1, 4)),
@@ -130,9 +129,15 @@ fn site(lattice: Lattice, sector: u32, x: i32, y: i32) -> Site {
                 (false, false) => 2,
                 (true, false) => 3,
             };
-            Site::Corner(from(i + i32::from(!right), j + i32::from(!up), direction))
+            let (i, j) = (i + i32::from(!right), j + i32::from(!up));
+            if lattice.has_centre() && i == 0 && j > 0 {
+                // on the next spoke, a quarter turn on
+                return (1, Site::Corner(from(j, 0, (direction + 3) % 4)));
+            }
+            Site::Corner(from(i, j, direction))
         }
-    }
+    };
+    (0, site)
 }
 
 /// The placements of a step's splits, and of as many steps as bring the lattice back to itself.
