@@ -135,7 +135,9 @@ fn exact_eigenvalues_add_up_to_the_traces() {
                 if e.is_real() && !words.starts_with("root") {
                     assert!((value(words, n, 0) - x).abs() < 1e-13, "{} n = {n}: {words} is not {x}", listed.id);
                 }
-                if let Some(formula) = e.formula.as_ref().filter(|formula| e.is_real() && !formula.text.starts_with("root")) {
+                if let Some(formula) =
+                    e.formula.as_ref().filter(|formula| e.is_real() && !formula.text.starts_with("root"))
+                {
                     assert!(
                         (value(&formula.text, n, 0) - x).abs() < 1e-13,
                         "{} n = {n}: {} is not {x}",

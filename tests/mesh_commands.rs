@@ -166,7 +166,10 @@ fn tags_come_from_files_and_angles_and_go_on() {
     folder.refused("limit catmull-clark long.obj -o no.obj", &["of 1000 steps", "for ever (inf)"]);
     folder.refused("refine catmull-clark long.obj -o no.obj --to-limit -l 3", &["of 1000 steps", "for ever (inf)"]);
     folder.refused("verify catmull-clark --mesh long.obj --valence 3 --boundary-faces 2", &["for ever (inf)"]);
-    folder.refused("refine doo-sabin tagged.obj -o no.obj", &["under this split the boundary recedes, and there are none"]);
+    folder.refused(
+        "refine doo-sabin tagged.obj -o no.obj",
+        &["under this split the boundary recedes, and there are none"],
+    );
     folder.mesh("fan.obj", &shapes::fan(1, true));
     assert_eq!(folder.run("refine loop fan.obj -o corner.obj --boundary corner").0, 0);
     assert_eq!(folder.read("corner.obj").positions[..3], folder.read("fan.obj").positions[..]);

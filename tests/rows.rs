@@ -112,7 +112,8 @@ fn loop_with_the_cubic_boundary_makes_rows_on_a_mesh() {
     assert_eq!(scheme.boundary, ["cubic"]);
     boundary.check(&[1, 2, 3], 6).unwrap();
     let refinement = Refinement::<f64>::new(&scheme, Some(&boundary));
-    let rows: Vec<_> = mesh.vertex_edges().iter().map(|edge| refinement.passes()[0].vertex_row(&mesh, *edge).unwrap()).collect();
+    let rows: Vec<_> =
+        mesh.vertex_edges().iter().map(|edge| refinement.passes()[0].vertex_row(&mesh, *edge).unwrap()).collect();
     assert_eq!(rows[0].len(), 5, "an interior vertex of valence 4");
     assert_eq!(rows[1], [(1, 0.75), (4, 0.125), (5, 0.125)], "a boundary vertex of three faces");
     assert_eq!(rows[5], [(1, 0.125), (2, 0.125), (5, 0.75)], "a boundary vertex of one face");

@@ -5,6 +5,7 @@ use clap::{Args, ValueEnum};
 use eigenring::mesh::io::{Format, Output, read, write};
 use eigenring::mesh::{
     Connectivity, Crease, Faces, HalfEdgeMesh, NotAMesh, PolygonSoup, Tags, drop_isolated, split_non_manifold,
+    triangulate,
 };
 use eigenring::report::write_in_pieces;
 use std::collections::BTreeMap;
@@ -20,6 +21,9 @@ pub(crate) struct Reading {
     /// Drop vertices that belong to no face
     #[arg(long)]
     drop_isolated: bool,
+    /// Cut faces with more than three corners into triangles, by short diagonals
+    #[arg(long)]
+    triangulate: bool,
     /// Make every edge a crease whose faces meet at this angle or more, in degrees; 0 is flat
     #[arg(long, value_name = "DEGREES", value_parser = angle)]
     crease_angle: Option<f64>,
@@ -81,6 +85,17 @@ impl Reading {
                 say(&format!("note: {} vertices without a face were dropped", dropped.vertices));
             }
             soup = kept;
+        }
+        let small = soup.faces.iter().position(|face| face.len() < 3);
+        if let Some(face) = small.filter(|_| self.triangulate) {
+            return Err(not_a_mesh(path, &NotAMesh::Face(face)));
+        }
+        if self.triangulate {
+            let (cut, large) = triangulate(soup);
+            if large > 0 {
+                say(&format!("note: {large} faces were cut into triangles"));
+            }
+            soup = cut;
         }
         Ok(soup)
     }

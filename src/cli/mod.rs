@@ -5,6 +5,7 @@
 
 mod analyze;
 mod catalogue;
+mod claims;
 mod matrix;
 mod memory;
 mod mesh_file;
@@ -24,13 +25,14 @@ const EXAMPLES: &str = "Examples:
   eigenring analyze my-scheme.toml --valence 3..50 the same for a scheme of your own
   eigenring schemes                                the schemes that come with the program
   eigenring schemes loop                           one of their files, ready to copy and edit
+  eigenring claims                                 every claim of the literature: holds, fails, undecided
   eigenring new my-scheme --like loop              start a scheme file
   eigenring matrix loop --valence 5 --block 1      a block of the local subdivision matrix
   eigenring refine loop in.obj -o out.ply -l 3     a mesh, refined three times
   eigenring limit loop in.obj -o out.ply           its vertices on the limit surface, with normals
   eigenring verify loop --valence 3..12            the masks against deep refinement
 
-Exit status: 0 done, 1 a check says no (verify), 2 bad usage or bad input.";
+Exit status: 0 done, 1 a check says no (verify, claims), 2 bad usage or bad input.";
 
 /// Analyses subdivision schemes: local matrices at any valence, spectra, masks, characteristic maps, smoothness conditions.
 #[derive(Parser)]
@@ -46,6 +48,8 @@ enum Command {
     Analyze(Box<analyze::Analyze>),
     /// List the schemes of the catalogue, or print the file of one
     Schemes(catalogue::Schemes),
+    /// Hold every claim of the literature against the analysis
+    Claims(claims::Claims),
     /// Start a scheme file of your own
     New(catalogue::New),
     /// Print the local subdivision matrix of a scheme, or a block of it
@@ -98,6 +102,7 @@ pub(crate) fn run() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Analyze(command) => command.run(),
         Command::Schemes(command) => command.run(),
+        Command::Claims(command) => command.run(),
         Command::New(command) => command.run(),
         Command::Matrix(command) => command.run(),
         Command::Refine(command) => command.run(),

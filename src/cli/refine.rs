@@ -275,7 +275,11 @@ pub(crate) fn refused(scheme: &Scheme, wrong: NotRefinable) -> Failure {
         )),
         NotRefinable::Obstacle(obstacle) => explain(scheme, obstacle),
         NotRefinable::Face { needed: 3, .. } => failure(format!(
-            "{}: {wrong}\n  help: split the faces into triangles, or take a scheme for polygons, such as catmull-clark",
+            "{}: {wrong}\n  help: --triangulate cuts them, or take a scheme for polygons, such as catmull-clark",
+            scheme.book.title
+        )),
+        NotRefinable::Face { needed: 4, .. } => failure(format!(
+            "{}: {wrong}\n  help: a step of `eigenring refine catmull-clark` makes quads of any mesh; or take a scheme for polygons",
             scheme.book.title
         )),
         other => failure(format!("{}: {other}", scheme.book.title)),

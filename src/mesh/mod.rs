@@ -18,6 +18,7 @@ pub mod shapes;
 mod soup;
 mod split;
 mod tags;
+mod triangulate;
 
 pub use disc::disc;
 pub use faces::{Faces, Sides};
@@ -31,6 +32,7 @@ pub use repair::{Dropped, Repair, drop_isolated, split_non_manifold};
 pub use soup::{Crease, PolygonSoup};
 pub use split::{Becoming, Birth, Centre, Numbering, Split};
 pub use tags::{BadTag, Tagged, Tags, edge_between, first_corner};
+pub use triangulate::triangulate;
 
 /// A mesh seen through its half-edges. The half-edge h leaves `origin(h)` along an edge; the face to its left is its own.
 /// Where there is no face the half-edge still exists, and `next` follows the boundary.

@@ -63,6 +63,8 @@ pub struct Pass<'a, W> {
     told: PassRules<'a>,
     boundary: Option<&'a RuleBook>,
     weigher: Rc<dyn Weigher<W> + 'a>,
+    /// Whether the boundary recedes in a step: rules inside the mesh hold on it, too, as far as they don't reach over it.
+    recedes: bool,
     /// The lattice that it starts from, where it is applied to the canonical patch.
     on: Lattice,
     terms: RefCell<HashMap<(RuleKind, usize), Terms<'a, W>>>,
@@ -79,7 +81,9 @@ impl<'a, W: Field> Pass<'a, W> {
     /// The rules of a pass, with weights from elsewhere than its formulas alone.
     pub(super) fn weighed(scheme: &'a Scheme, told: PassRules<'a>, weigher: Rc<dyn Weigher<W> + 'a>) -> Self {
         let on = if scheme.mesh == "triangles" { Lattice::Triangles } else { Lattice::Quads };
-        Pass { scheme, told, boundary: None, weigher, on, terms: RefCell::new(HashMap::new()) }
+        let splits = scheme.passes();
+        let recedes = splits.iter().any(|pass| Split::named(pass.split).is_some_and(|split| !split.keeps_boundary()));
+        Pass { scheme, told, boundary: None, weigher, recedes, on, terms: RefCell::new(HashMap::new()) }
     }
 
     /// The same on a lattice.
@@ -130,7 +134,7 @@ impl<'a, W: Field> Pass<'a, W> {
     /// # Errors
     /// As [`Pass::row_at`].
     pub fn vertex_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
-        let sharp = mesh.sharp_spokes(edge);
+        let sharp = if self.recedes { Vec::new() } else { mesh.sharp_spokes(edge) };
         if mesh.is_corner(edge) || sharp.len() > 2 {
             return self.apply(mesh, RuleKind::VertexCorner, 0, &[edge]);
         }
@@ -152,7 +156,7 @@ impl<'a, W: Field> Pass<'a, W> {
     /// As [`Pass::row_at`].
     pub fn edge_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
         let halves = [edge, mesh.twin(edge)];
-        if mesh.is_sharp(edge) {
+        if mesh.is_sharp(edge) && !self.recedes {
             return self.apply(mesh, RuleKind::EdgeCrease, 0, &halves);
         }
         if self.rules().contains_key(&RuleKind::EdgeFromIrregularEnd) {

@@ -22,6 +22,8 @@ pub enum Quantity {
     Limit(String),
     /// That limit surfaces are C1 for generic control points.
     C1,
+    /// That limit surfaces are not C1 for generic control points.
+    NotC1,
     /// That limit surfaces are C2 for generic control points.
     C2,
 }
@@ -35,17 +37,18 @@ impl Quantity {
             "saddle" => Quantity::Saddle,
             "curvature ratio" => Quantity::CurvatureRatio,
             "C1" => Quantity::C1,
+            "not C1" => Quantity::NotC1,
             "C2" => Quantity::C2,
             _ => Quantity::Limit(what.strip_prefix("limit ")?.to_string()),
         })
     }
 
     /// What `what` may say, for messages.
-    pub const WORDS: &str = "`subdominant`, `cup`, `saddle`, `curvature ratio`, `limit POSITION`, `C1`, `C2`";
+    pub const WORDS: &str = "`subdominant`, `cup`, `saddle`, `curvature ratio`, `limit POSITION`, `C1`, `not C1`, `C2`";
 
     /// Whether the claim must give a value under `equals`.
     pub fn has_value(&self) -> bool {
-        !matches!(self, Quantity::C1 | Quantity::C2)
+        !matches!(self, Quantity::C1 | Quantity::NotC1 | Quantity::C2)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Does the analysis agree with what the literature says?
 
-use super::{Evidence, Verdict, bound, digits};
+use super::{Decision, Evidence, Verdict, bound, digits};
 use crate::analysis::Analysis;
 use crate::analysis::exact::Value;
 use crate::analysis::spectrum::{Eigenvalue, NEAR};
@@ -184,18 +184,39 @@ fn exactly_found(
 }
 
 fn property(made: &[(&Analysis, &Vec<Verdict>)], quantity: &Quantity) -> (Outcome, String) {
-    if *quantity != Quantity::C1 {
-        return (Outcome::Undecided, "this property is not decided yet".to_string());
+    let wanted = match quantity {
+        Quantity::C1 => true,
+        Quantity::NotC1 => false,
+        _ => return (Outcome::Undecided, "this property is not decided yet".to_string()),
+    };
+    let found: Vec<(usize, Decision, Evidence)> = made.iter().map(|(a, own)| c1(a.valence, own)).collect();
+    let (says, denies) = if wanted {
+        ((Decision::Proved, Evidence::For), (Decision::Refuted, Evidence::Against))
+    } else {
+        ((Decision::Refuted, Evidence::Against), (Decision::Proved, Evidence::For))
+    };
+    let valence =
+        |test: &dyn Fn(&(usize, Decision, Evidence)) -> bool| found.iter().find(|own| test(own)).map(|own| own.0);
+    let word = |decision: Decision| if decision == Decision::Proved { "proved" } else { "refuted" };
+    if found.iter().all(|own| own.1 == says.0) {
+        return (Outcome::Agrees, format!("{} at every valence", word(says.0)));
     }
-    let evidence = |verdicts: &[Verdict]| verdicts.iter().find(|v| v.claim == "C1").map(|v| v.evidence);
-    let all: Vec<(usize, Option<Evidence>)> =
-        made.iter().map(|(a, verdicts)| (a.valence, evidence(verdicts))).collect();
-    let at = |wanted: Evidence| all.iter().find(|(_, own)| *own == Some(wanted)).map(|(n, _)| *n);
-    match (at(Evidence::Against), at(Evidence::None)) {
-        (Some(n), _) => (Outcome::Disagrees, format!("evidence against it at n = {n}")),
-        (None, Some(n)) => (Outcome::Undecided, format!("not seen either way at n = {n}")),
-        (None, None) => (Outcome::Undecided, "evidence for it at every valence; not proved".to_string()),
+    if let Some(n) = valence(&|own| own.1 == denies.0) {
+        return (Outcome::Disagrees, format!("{} at n = {n}", word(denies.0)));
     }
+    if let Some(n) = valence(&|own| own.2 == denies.1) {
+        return (Outcome::Disagrees, format!("evidence against it at n = {n}"));
+    }
+    match valence(&|own| own.1 != says.0 && own.2 != says.1) {
+        Some(n) => (Outcome::Undecided, format!("not seen either way at n = {n}")),
+        None => (Outcome::Undecided, format!("evidence for it at every valence; not {}", word(says.0))),
+    }
+}
+
+/// What is decided, and what is seen, of C1 at a valence.
+fn c1(n: usize, verdicts: &[Verdict]) -> (usize, Decision, Evidence) {
+    let of_c1 = verdicts.iter().find(|verdict| verdict.claim == "C1");
+    of_c1.map_or((n, Decision::Undecided, Evidence::None), |own| (n, own.verdict, own.evidence))
 }
 
 /// The value of a quantity at a valence, where it is known to rounding: an eigenvalue of a cluster is not.
@@ -217,6 +238,6 @@ fn found(analysis: &Analysis, quantity: &Quantity, orbit_of: &dyn Fn(&str) -> Op
             let orbit = orbit_of(position)?;
             Some(mask.amplitudes[analysis.local.orbits.iter().position(|own| *own == orbit)?].re)
         }
-        Quantity::C1 | Quantity::C2 => None,
+        Quantity::C1 | Quantity::NotC1 | Quantity::C2 => None,
     }
 }
