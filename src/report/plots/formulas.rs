@@ -6,7 +6,7 @@
 use super::prettify::{lowered, name, pretty};
 use crate::refine::Obstacle;
 use crate::scheme::formula::Formula;
-use crate::scheme::vocabulary::RuleKind;
+use crate::scheme::vocabulary::{Move, RuleKind, Walk};
 use crate::scheme::{Cases, Entry, Pick, Place, Placed, Rule, RuleBook, Weights};
 use std::collections::BTreeMap;
 
@@ -46,7 +46,10 @@ impl<'a> Formulas<'a> {
         let mut written = BTreeMap::new();
         let entries = rule.map_or(&[][..], |rule| &rule.entries);
         let sizes = entries.iter().map(|entry| crate::scheme::class_size(entry, kind, count as i64));
-        self.longest = MAX_LETTERS[usize::from(sizes.sum::<usize>() >= MANY)];
+        // many points, or points straight on along a line, leave little room
+        let on = |walk: &Walk| walk.ways.iter().flatten().any(|step| *step == Move::On);
+        let long = entries.iter().any(|entry| entry.picks.is_none() && entry.position.walks.iter().any(on));
+        self.longest = MAX_LETTERS[usize::from(long || sizes.sum::<usize>() >= MANY)];
         for (at, entry) in entries.iter().enumerate() {
             let size = crate::scheme::class_size(entry, kind, count as i64);
             let indices: Vec<usize> =

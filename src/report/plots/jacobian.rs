@@ -23,10 +23,11 @@ const SHADES: [RGBColor; 5] = [
     RGBColor(0, 90, 150),
 ];
 
-/// The samples of sector 0 between the distances `scale` and twice that, shown by cells that are `step` samples wide.
+/// The samples of sector 0 from one distance to the dilation times that, shown by cells that are `step` samples wide.
 struct Ring<'a> {
     samples: &'a [Sample],
-    scale: i32,
+    /// The outer distance.
+    outer: i32,
     step: i32,
 }
 
@@ -44,7 +45,8 @@ pub(super) fn picture(lattice: Lattice, panels: &[MapPanel], rest: &str) -> Resu
             match panel.picture.as_ref().and_then(|picture| picture.samples.as_ref()) {
                 Some((scale, samples)) => {
                     let valence = panel.analysis.valence;
-                    let ring = Ring { samples, scale: *scale, step: step(*scale, panels.len(), valence) };
+                    let outer = samples.iter().map(|sample| lattice.ring(sample.at.0, sample.at.1)).max().unwrap_or(0);
+                    let ring = Ring { samples, outer, step: step(*scale, panels.len(), valence) };
                     draw_ring(canvas, content(area), lattice, valence, &ring);
                 }
                 None => words(canvas, content(area), panel),
@@ -135,11 +137,11 @@ fn cells(lattice: Lattice, roots: &RootsOfUnity, ring: &Ring) -> Vec<Cell> {
         sample => sample.map(|s| (s.point, s.jacobian)),
     };
     let between = if lattice.has_centre() { None } else { Some((-1, 1)) };
-    let columns = (0..2 * ring.scale).step_by(ring.step as usize).map(|i| (i, ring.step));
+    let columns = (0..ring.outer).step_by(ring.step as usize).map(|i| (i, ring.step));
     let squares = between
         .into_iter()
         .chain(columns)
-        .flat_map(|column| (0..2 * ring.scale).step_by(ring.step as usize).map(move |j| (column, (j, ring.step))));
+        .flat_map(|column| (0..ring.outer).step_by(ring.step as usize).map(move |j| (column, (j, ring.step))));
     let mut cells = Vec::new();
     for (corners, inside) in squares.flat_map(|(column, row)| shapes(lattice, column, row)) {
         let Some(corners) = corners.into_iter().map(|place| Some(at(place)?.0)).collect::<Option<Vec<_>>>() else {
@@ -206,7 +208,7 @@ mod tests {
         {
             let samples = identity(lattice, valence);
             for step in [1, 2] {
-                let ring = Ring { samples: &samples, scale: 2, step };
+                let ring = Ring { samples: &samples, outer: 4, step };
                 let cells = cells(lattice, &RootsOfUnity::new(valence), &ring);
                 let total: f64 = cells.iter().map(|cell| size(&cell.corners)).sum();
                 assert!((total - area).abs() < 1e-12, "{lattice:?} {step} {total}");

@@ -40,13 +40,17 @@ pub(super) fn picture(analyzer: &Analyzer) -> Result<Picture, Obstacle> {
     let mut formulas = Formulas::new(&analyzer.scheme().book);
     let mut panels = Vec::new();
     let passes = refinement.passes();
+    let several = analyzer.scheme().book.passes.len() > 1;
+    let mut number = 0;
     // one panel for each rule that is told in the file, however often its pass is made
     for (index, pass) in passes.iter().enumerate() {
         if passes[..index].iter().any(|before| std::ptr::eq(before.rules(), pass.rules())) {
             continue;
         }
+        number += 1;
+        let prefix = if several { format!("pass {number}: ") } else { String::new() };
         for kind in pass.rules().keys().filter(|kind| !kind.is_boundary()) {
-            panels.extend(panel(analyzer.lattice(), *kind, pass, &mut formulas)?);
+            panels.extend(panel(analyzer.lattice(), *kind, pass, &prefix, &mut formulas)?);
         }
     }
     let notes: Vec<String> = formulas.notes().iter().flat_map(|note| wrapped(note, 1080, SMALL)).collect();
@@ -93,6 +97,8 @@ fn caption(analyzer: &Analyzer) -> String {
 
 /// The half-edges around the place that a rule is told around, with its layout and the new point in it.
 fn place(lattice: Lattice, kind: RuleKind) -> Option<(Fan, Vec<PatchEdge>, Complex64, String)> {
+    // all rules but those of corners are shown around a vertex
+    let lattice = if kind == RuleKind::Corner || lattice.has_centre() { lattice } else { Lattice::Quads };
     let regular = lattice.regular_valence();
     let irregular = matches!(kind, RuleKind::Vertex | RuleKind::EdgeFromIrregularEnd | RuleKind::Corner);
     let fan = Fan::new(lattice, if irregular { IRREGULAR } else { regular });
@@ -125,11 +131,13 @@ fn panel(
     lattice: Lattice,
     kind: RuleKind,
     pass: &Pass<f64>,
+    prefix: &str,
     formulas: &mut Formulas,
 ) -> Result<Option<Panel>, Obstacle> {
     let Some((fan, starts, new, title)) = place(lattice, kind) else { return Ok(None) };
     let weights = formulas.weights_of(pass.rules().get(&kind), kind, starts.len(), &title)?;
-    let mut panel = Panel { title, fan, new, spots: BTreeMap::new(), passed: BTreeSet::new() };
+    let mut panel =
+        Panel { title: format!("{prefix}{title}"), fan, new, spots: BTreeMap::new(), passed: BTreeSet::new() };
     panel.pass(&starts);
     for used in pass.uses(&panel.fan.patch, kind, &starts)? {
         if let Some(weight) = weights.get(&(used.entry, used.index)) {
