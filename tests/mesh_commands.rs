@@ -219,7 +219,7 @@ fn bad_requests_are_refused_before_the_work() {
     folder.refused("refine catmull-clark cube.obj -o nowhere/out.obj", &["there is no folder `nowhere`"]);
     folder.refused(
         "refine loop cube.obj -o no.obj",
-        &["face 0 has 4 corners", "triangles only", "help: split the faces"],
+        &["face 0 has 4 corners", "triangles only", "--triangulate cuts them"],
     );
     folder.refused("refine catmull-clark cube.obj -o no.obj -l 30", &["more than 2147483647", "--levels"]);
     folder.refused("refine lop cube.obj -o no.obj", &["did you mean `loop`?"]);

@@ -39,6 +39,11 @@ impl Reader<'_> {
             return None;
         };
         let items = self.items(table, &PASS_KEYS, "a pass");
+        if self.find(&items, "split").is_none() {
+            let fault = Fault::at(span, "this pass has no `split`", "");
+            self.faults.push(fault.hint("write split = \"keep\" where faces stay as they are"));
+            return None;
+        }
         let split = self.split(&items, mesh);
         let repeat = self.find(&items, "repeat").and_then(|(value, span)| self.formula(value, &span));
         if let Some(placed) = &repeat {
