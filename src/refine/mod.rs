@@ -5,6 +5,7 @@
 
 mod births;
 mod compact;
+mod ends;
 mod exact_weights;
 mod gather;
 mod growth;
@@ -217,36 +218,13 @@ impl<'a, W: Field> Refinement<'a, W> {
         self.apply(mesh, RuleKind::VertexCrease, faces, &spokes)
     }
 
-    /// The row of the new point on an edge. A rule told from an irregular end is applied from each such end, and the results
+    /// The row of the new point on an edge. A rule told from a special end is applied from each such end, and the results
     /// are averaged.
     ///
     /// # Errors
     /// As [`Refinement::row_at`].
     pub fn edge_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
-        let halves = [edge, mesh.twin(edge)];
-        if mesh.is_sharp(edge) {
-            return self.apply(mesh, RuleKind::EdgeCrease, 0, &halves);
-        }
-        if self.scheme.book.rules.contains_key(&RuleKind::EdgeFromIrregularEnd) {
-            let regular = self.scheme.regular_valence();
-            let irregular = |half: &&M::Edge| mesh.valence(**half) != regular && mesh.sharp_spokes(**half).len() < 2;
-            let ends: Vec<M::Edge> = halves.iter().filter(irregular).copied().collect();
-            if !ends.is_empty() {
-                return self.mean_from_ends(mesh, &ends);
-            }
-        }
-        self.apply(mesh, RuleKind::Edge, 0, &halves)
-    }
-
-    fn mean_from_ends<M: Connectivity>(&self, mesh: &M, ends: &[M::Edge]) -> Result<Row<M::Point, W>, Obstacle> {
-        let share = W::whole(1).over(&W::whole(ends.len() as i64))?;
-        let mut sum = Vec::new();
-        for end in ends {
-            let spokes = mesh.around_vertex(*end);
-            let row = self.apply(mesh, RuleKind::EdgeFromIrregularEnd, spokes.len(), &spokes)?;
-            add_scaled(&mut sum, &row, &share)?;
-        }
-        collected(sum)
+        self.row_from_ends(mesh, [edge, mesh.twin(edge)])
     }
 
     /// The row of the new point in the face to the left of `edge`.
@@ -297,7 +275,7 @@ impl<'a, W: Field> Refinement<'a, W> {
 
     fn rule(&self, kind: RuleKind) -> Result<(&'a RuleBook, &'a Rule), Obstacle> {
         let book = if kind.is_boundary() { self.boundary } else { Some(&self.scheme.book) };
-        let rule = book.and_then(|book| Some((book, book.rules.get(&kind)?)));
+        let rule = book.and_then(|book| book.told(kind));
         rule.ok_or(Obstacle::NoRule(kind.name()))
     }
 

@@ -161,11 +161,24 @@ pub struct RuleBook {
     pub lets: Vec<Let>,
     /// The rules.
     pub rules: BTreeMap<RuleKind, Rule>,
+    /// The boundary file whose rules hold where this one has none.
+    pub like: Option<Box<RuleBook>>,
     /// Whether every face of the meshes that it refines has four corners.
     pub quads_only: bool,
 }
 
 impl RuleBook {
+    /// The rule of a kind, with the file that tells it: this one, or that which it is like.
+    pub fn told(&self, kind: RuleKind) -> Option<(&RuleBook, &Rule)> {
+        let own = self.rules.get(&kind).map(|rule| (self, rule));
+        own.or_else(|| self.like.as_ref().and_then(|like| like.told(kind)))
+    }
+
+    /// Whether rules for edges are told from their ends on a boundary or crease: then vertices there look at their neighbours.
+    pub fn tells_from_ends(&self) -> bool {
+        RuleKind::FROM_ENDS.iter().any(|kind| self.told(*kind).is_some())
+    }
+
     /// The faults as an error about this file.
     pub fn faults(&self, faults: Vec<Fault>) -> Faults {
         Faults { origin: self.origin.clone(), text: self.text.clone(), faults }
