@@ -174,6 +174,14 @@ impl RuleBook {
         own.or_else(|| self.like.as_ref().and_then(|like| like.told(kind)))
     }
 
+    /// The sources of this file and of that which it is like, each once.
+    pub fn all_sources(&self) -> Vec<String> {
+        let mut all = self.sources.clone();
+        let more = self.like.as_ref().map_or(vec![], |like| like.all_sources());
+        all.extend(more.into_iter().filter(|source| !self.sources.contains(source)));
+        all
+    }
+
     /// Whether rules for edges are told from their ends on a boundary or crease: then vertices there look at their neighbours.
     pub fn tells_from_ends(&self) -> bool {
         RuleKind::FROM_ENDS.iter().any(|kind| self.told(*kind).is_some())
