@@ -19,10 +19,21 @@ use std::f64::consts::{PI, TAU};
 
 const SCHEMES: [&str; 3] = ["loop", "loop-warren", "catmull-clark"];
 
-fn open(id: &str) -> (Scheme, RuleBook) {
+/// A scheme with its first boundary file, or with the one named: `loop/hoppe-1994`.
+fn open(name: &str) -> (Scheme, RuleBook) {
+    let (id, rules) = name.split_once('/').unwrap_or((name, "cubic"));
     let scheme = catalogue::open(id).unwrap().unwrap();
-    let book = catalogue::boundary("cubic", &scheme.mesh).unwrap().unwrap();
+    let book = catalogue::boundary(rules, &scheme.mesh).unwrap().unwrap();
     (scheme, book)
+}
+
+/// Every scheme with every boundary file that it names.
+fn variants() -> Vec<String> {
+    let of = |id: &str| {
+        let scheme = catalogue::open(id).unwrap().unwrap();
+        scheme.boundary.iter().map(|rules| format!("{id}/{rules}")).collect::<Vec<_>>()
+    };
+    SCHEMES.into_iter().flat_map(of).collect()
 }
 
 fn crease(faces: usize) -> FanKind {
@@ -70,11 +81,11 @@ fn spread(analysis: &BoundaryAnalysis, mask: &FanMask) -> DVector<f64> {
 }
 
 fn each(mut visit: impl FnMut(&str, &BoundaryAnalysis)) {
-    for id in SCHEMES {
-        let (scheme, book) = open(id);
+    for name in variants() {
+        let (scheme, book) = open(&name);
         let analyzer = BoundaryAnalyzer::new(&scheme, &book).unwrap();
         for kind in kinds() {
-            visit(&format!("{id} {kind:?}"), &analyzer.at(kind).unwrap());
+            visit(&format!("{name} {kind:?}"), &analyzer.at(kind).unwrap());
         }
     }
 }

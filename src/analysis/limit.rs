@@ -4,7 +4,8 @@
 //! the mesh, on boundaries and creases, at corners and darts. Masks come from the analysis, at each place that the mesh has. A mask holds where the
 //! mesh is like the canonical patch as far as the rules of its points look: where rules are compact and the mask lies on the faces around the vertex,
 //! these alone must be regular; else so must all vertices around it, out to the reach of the neighbourhood. Where
-//! they are not, and while creases that end are there, the mesh is refined first, and vertices are followed: to vertices, or to faces.
+//! they are not, and while creases that end are there, the mesh is refined first, and vertices are followed: to vertices, or to faces. So is a mesh
+//! with boundaries or creases where rules near these are told from their special vertices: after a step these are no neighbours.
 
 use super::places::{LabelledMask, Place, PlaceMasks, Places, point_at};
 use crate::mesh::{Centre, Connectivity, Cycle, FanKind, HalfEdgeMesh, Lattice, Tagged};
@@ -113,7 +114,8 @@ impl<'a> Limits<'a> {
         let dual = self.refiner.is_dual();
         let sizes = usize::from(!dual && level.mesh.faces().same_size() != Some(self.lattice.face_corners() as u32));
         let apart = if self.near || (!dual && self.all_apart(level)) { 0 } else { self.steps_apart };
-        ending.max(sizes).saturating_add(apart + usize::from(dual))
+        let special = self.refiner.tells_from_ends() && !(level.tags.is_empty() && level.mesh.is_closed());
+        ending.max(sizes).max(usize::from(special && self.near)).saturating_add(apart + usize::from(dual))
     }
 
     /// Whether every vertex, and whatever is special, is alone as far as the masks reach.

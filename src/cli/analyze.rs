@@ -1,6 +1,6 @@
 //! `analyze`: what does this scheme do, at these valences?
 
-use super::open::open;
+use super::open::{BoundaryRules, open_with_rules};
 use super::valences::{Faces, Valences};
 use super::{Failure, failure, print};
 use clap::{Args, ValueEnum};
@@ -17,7 +17,8 @@ const EXAMPLES: &str = "Examples:
   eigenring analyze loop --valence 3..12
   eigenring analyze my-scheme.toml --valence 3,4,7..9,50 --out my-report
   eigenring analyze modified-butterfly --set w=1/64 --format md
-  eigenring analyze catmull-clark --valence 5 --boundary 1..6 --format json | less";
+  eigenring analyze catmull-clark --valence 5 --boundary 1..6 --format json | less
+  eigenring analyze loop --boundary 1..8 --boundary-rules all";
 
 /// Analyses a scheme and writes its report: Markdown, LaTeX, CSV, JSON, and pictures as SVG and PNG.
 #[derive(Args)]
@@ -43,6 +44,8 @@ pub(crate) struct Analyze {
     /// Add what the scheme does at boundaries, creases, corners and darts, for these numbers of faces: 1..8, or a list
     #[arg(long, value_name = "LIST")]
     boundary: Option<Faces>,
+    #[command(flatten)]
+    rules: BoundaryRules,
     /// The folder that the report is written into [default: reports/SCHEME]
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -68,7 +71,7 @@ enum Format {
 
 impl Analyze {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let mut scheme = open(&self.scheme, &self.set)?;
+        let (mut scheme, variants) = open_with_rules(&self.scheme, &self.set, Some(&self.rules))?;
         self.symbolic.iter().try_for_each(|name| scheme.leave_free(name.trim())).map_err(failure)?;
         let draw = !self.no_pictures && self.format.is_none();
         let bar = progress_bar(&self.valence.0);
@@ -87,7 +90,10 @@ impl Analyze {
         }
         if let Some(faces) = &self.boundary {
             let bar = progress_bar(&faces.0);
-            let found = boundary::boundary(&scheme, &faces.0, self.digits.into(), &|| bar.inc(1));
+            if variants.is_empty() {
+                return Err(explain(&scheme, boundary::no_boundary_file()));
+            }
+            let found = boundary::boundary(&scheme, &variants, &faces.0, self.digits.into(), &|| bar.inc(1));
             bar.finish_and_clear();
             study.report.add_boundary(found.map_err(|error| explain(&scheme, error))?);
         }

@@ -1,8 +1,10 @@
 //! Which scheme does a name or a path mean?
 
 use super::{Failure, failure};
+use clap::Args;
 use eigenring::fault::nearest;
 use eigenring::refine;
+use eigenring::report::boundary::Variant;
 use eigenring::scheme::{MAX_FILE_BYTES, RuleBook, RuleSum, Scheme, catalogue};
 use std::fs::File;
 use std::io::Read;
@@ -10,30 +12,84 @@ use std::path::Path;
 
 /// The scheme of a name of the catalogue, or of a file, with its parameters set.
 pub(crate) fn open(name: &str, settings: &[String]) -> Result<Scheme, Failure> {
+    Ok(open_with_rules(name, settings, None)?.0)
+}
+
+/// A scheme, and the boundary files to be taken with it: those asked for, `all` that it names, or its first. Parameters are those of the scheme
+/// or of these files.
+pub(crate) fn open_with_rules(
+    name: &str,
+    settings: &[String],
+    rules: Option<&BoundaryRules>,
+) -> Result<(Scheme, Vec<Variant>), Failure> {
     let mut scheme = match catalogue::open(name) {
         Some(scheme) => scheme?,
         None => Scheme::parse(&short_name(name), name, &read(name)?)?,
     };
+    let mut variants = rules.map_or(Ok(vec![]), |rules| rules.open(&scheme))?;
     let mut set: Vec<&str> = Vec::new();
     for setting in settings {
         let (parameter, value) = setting
             .split_once('=')
             .ok_or_else(|| failure(format!("--set takes name=value, for example --set w=1/32, not `{setting}`")))?;
-        if set.contains(&parameter.trim()) {
-            return Err(failure(format!("`{}` is set twice", parameter.trim())));
+        let (parameter, value) = (parameter.trim(), value.trim());
+        if set.contains(&parameter) {
+            return Err(failure(format!("`{parameter}` is set twice")));
         }
-        set.push(parameter.trim());
-        scheme.set(parameter.trim(), value.trim()).map_err(failure)?;
+        set.push(parameter);
+        let knows = |book: &RuleBook| book.parameters.iter().any(|own| own.name == parameter);
+        let mut books: Vec<&mut RuleBook> =
+            variants.iter_mut().map(|variant| &mut variant.book).filter(|book| knows(book)).collect();
+        if knows(&scheme.book) || books.is_empty() {
+            scheme.set(parameter, value).map_err(failure)?;
+        }
+        books.iter_mut().try_for_each(|book| book.set(parameter, value)).map_err(failure)?;
     }
-    Ok(scheme)
+    Ok((scheme, variants))
 }
 
-/// The rules of the first boundary file that a scheme names.
-pub(crate) fn boundary_of(scheme: &Scheme) -> Result<Option<RuleBook>, Failure> {
-    let Some(name) = scheme.boundary.first() else { return Ok(None) };
-    let book = catalogue::boundary(name, &scheme.mesh);
-    let unknown = || failure(format!("{}: there is no boundary file `{name}`", scheme.book.title));
-    Ok(Some(book.ok_or_else(unknown)??))
+/// Which boundary files are asked for.
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct BoundaryRules {
+    /// The boundary file whose rules are taken: a name such as cubic, or the path of a file [default: the first that the scheme names]
+    #[arg(long = "boundary-rules", value_name = "RULES", value_delimiter = ',')]
+    asked: Vec<String>,
+}
+
+impl BoundaryRules {
+    /// Those asked for; the scheme's first where nothing is asked for, and none where it names none.
+    fn open(&self, scheme: &Scheme) -> Result<Vec<Variant>, Failure> {
+        match self.asked.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+            [] => scheme.boundary.first().map(|name| variant(scheme, name)).into_iter().collect(),
+            ["all"] => scheme.boundary.iter().map(|name| variant(scheme, name)).collect(),
+            ref names => names.iter().map(|name| variant(scheme, name.trim())).collect(),
+        }
+    }
+}
+
+/// The boundary file of a name or a path.
+fn variant(scheme: &Scheme, name: &str) -> Result<Variant, Failure> {
+    let book = match catalogue::boundary(name, &scheme.mesh) {
+        Some(book) => book?,
+        None if Path::new(name).exists() => RuleBook::parse_boundary(name, &read(name)?, &scheme.mesh)?,
+        None => {
+            let known: Vec<&str> = catalogue::BOUNDARIES.iter().map(|listed| listed.id).collect();
+            let known = known.join(", ");
+            return Err(failure(format!(
+                "there is no boundary file `{name}`\n  help: the boundary files are {known}; one of your own is given by its path"
+            )));
+        }
+    };
+    Ok(Variant { name: if Path::new(name).exists() { short_name(name) } else { name.to_string() }, book })
+}
+
+/// The only boundary file of a list, which may be none.
+pub(crate) fn only(variants: Vec<Variant>) -> Result<Option<RuleBook>, Failure> {
+    let mut books = variants.into_iter().map(|variant| variant.book);
+    match (books.next(), books.next()) {
+        (book, None) => Ok(book),
+        _ => Err(failure("a mesh is refined by one boundary file: give one name with --boundary-rules")),
+    }
 }
 
 /// Opens a scheme and checks it at the valences asked for.

@@ -2,15 +2,16 @@
 
 use super::analyze::explain;
 use super::mesh_file::{Loaded, Reading, check_destination, creases_of, save, statistics, statistics_of_faces};
-use super::open::{boundary_of, open};
+use super::open::{BoundaryRules, only, open_with_rules};
 use super::{Failure, failure, memory, say};
 use clap::{Args, ValueEnum};
+use eigenring::analysis::boundary::MAX_FACES;
 use eigenring::analysis::limit::{LimitSurface, Limits, NoLimit};
 use eigenring::analysis::local::MAX_VALENCE;
 use eigenring::mesh::io::{Coordinates, Output};
 use eigenring::mesh::{Connectivity, HalfEdgeMesh};
 use eigenring::refine::{Coordinate, Counts, Level, NotRefinable, Obstacle, Refined, Refiner, Route};
-use eigenring::scheme::Scheme;
+use eigenring::scheme::{RuleBook, Scheme};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -65,6 +66,8 @@ struct Job {
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     #[command(flatten)]
+    rules: BoundaryRules,
+    #[command(flatten)]
     reading: Reading,
     /// The number of threads [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -102,20 +105,28 @@ impl Job {
         let threads = self.threads.map_or(0, usize::from);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.map_err(|error| failure(format!("{threads} threads can't be started: {error}")))?;
-        let scheme = open(&self.scheme, &self.set)?;
+        let (scheme, variants) = open_with_rules(&self.scheme, &self.set, Some(&self.rules))?;
+        let book = only(variants)?;
         eigenring::refine::check(&scheme, &valences_of(&loaded.mesh, &scheme))?;
+        check_rules(&scheme, book.as_ref(), &loaded.mesh)?;
         pool.install(|| match self.precision {
-            Precision::Single => self.work::<f32>(&scheme, loaded, levels, to_limit),
-            Precision::Double => self.work::<f64>(&scheme, loaded, levels, to_limit),
+            Precision::Single => self.work::<f32>(&scheme, book.as_ref(), loaded, levels, to_limit),
+            Precision::Double => self.work::<f64>(&scheme, book.as_ref(), loaded, levels, to_limit),
         })
     }
 
-    fn work<T: Coordinate>(&self, scheme: &Scheme, loaded: Loaded, levels: usize, to_limit: bool) -> Result<(), Failure>
+    fn work<T: Coordinate>(
+        &self,
+        scheme: &Scheme,
+        book: Option<&RuleBook>,
+        loaded: Loaded,
+        levels: usize,
+        to_limit: bool,
+    ) -> Result<(), Failure>
     where
         for<'a> &'a [[T; 3]]: Into<Coordinates<'a>>,
     {
-        let book = boundary_of(scheme)?;
-        let refiner = Refiner::new(scheme, book.as_ref()).map_err(|wrong| refused(scheme, wrong))?;
+        let refiner = Refiner::new(scheme, book).map_err(|wrong| refused(scheme, wrong))?;
         refiner.fits(&loaded.mesh, &loaded.tags).map_err(|wrong| refused(scheme, wrong))?;
         check_size::<T>(&refiner, &loaded.mesh, levels, to_limit, None)?;
         let ending = loaded.tags.most_steps().ceil() as usize;
@@ -192,6 +203,16 @@ pub(crate) fn valences_of(mesh: &HalfEdgeMesh, scheme: &Scheme) -> Vec<usize> {
     let valences = inside.map(|h| mesh.valence(*h)).chain(sizes);
     let valences: BTreeSet<usize> = valences.filter(|n| (3..=MAX_VALENCE).contains(n)).collect();
     valences.into_iter().take(CHECKED).collect()
+}
+
+/// Checks boundary rules at the numbers of faces and the valences of a mesh.
+pub(crate) fn check_rules(scheme: &Scheme, book: Option<&RuleBook>, mesh: &HalfEdgeMesh) -> Result<(), Failure> {
+    let Some(book) = book else { return Ok(()) };
+    let boundary = mesh.vertex_edges().iter().filter(|h| mesh.boundary_at(**h).is_some());
+    let faces: BTreeSet<usize> = boundary.map(|h| mesh.valence(*h) - 1).filter(|k| *k <= MAX_FACES).collect();
+    let counts: Vec<usize> = faces.into_iter().take(40).chain(valences_of(mesh, scheme)).collect();
+    book.check(&counts, scheme.regular_valence())?;
+    Ok(())
 }
 
 /// Checks, before starting, that indices and memory suffice for some steps; `why` they are made, and what to do otherwise, is told

@@ -2,8 +2,8 @@
 
 use super::analyze::explain;
 use super::mesh_file::Reading;
-use super::open::{boundary_of, open};
-use super::refine::{BEFORE_LIMIT, check_size, no_limit, refused, valences_of};
+use super::open::{BoundaryRules, only, open_with_rules};
+use super::refine::{BEFORE_LIMIT, check_rules, check_size, no_limit, refused, valences_of};
 use super::valences::{Faces, Valences};
 use super::{Failure, failure, print};
 use clap::{Args, ValueEnum};
@@ -36,6 +36,8 @@ pub(crate) struct Verify {
     /// Numbers of faces at a boundary vertex [default: 1..6 where the scheme has boundary rules; with --mesh, the mesh's]
     #[arg(long, short, value_name = "LIST")]
     boundary_faces: Option<Faces>,
+    #[command(flatten)]
+    rules: BoundaryRules,
     /// Check limits on this mesh, too: OBJ, PLY, OFF or STL
     #[arg(long, value_name = "FILE")]
     mesh: Option<PathBuf>,
@@ -73,14 +75,17 @@ struct OnMesh {
 
 impl Verify {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let scheme = open(&self.scheme, &self.set)?;
+        let (scheme, variants) = open_with_rules(&self.scheme, &self.set, Some(&self.rules))?;
+        let book = only(variants)?;
         let meshes = self.meshes()?;
         let mut valences = self.valence.as_ref().map_or_else(|| (3..=12).collect(), |list| list.0.clone());
         if let (None, Some((_, level))) = (&self.valence, meshes.first().filter(|_| self.mesh.is_some())) {
             valences = valences_of(&level.mesh, &scheme);
         }
         eigenring::refine::check(&scheme, &valences)?;
-        let book = boundary_of(&scheme)?;
+        if let Some((_, level)) = meshes.first() {
+            check_rules(&scheme, book.as_ref(), &level.mesh)?;
+        }
         let refiner = Refiner::new(&scheme, book.as_ref()).map_err(|wrong| refused(&scheme, wrong))?;
         let verifier = Verifier::new(&refiner).map_err(|obstacle| explain(&scheme, obstacle))?;
         let own = meshes.first().map(|(_, level)| boundary_faces_of(&level.mesh));

@@ -2,7 +2,8 @@
 //!
 //! An edge of sharpness s is a crease for s >= 1 and smooth for s = 0; in between its point is s times the one and 1 - s
 //! times the other. A vertex follows the rule for all its creases as far as those that end within this step last, by the mean of their
-//! sharpness, and the rule without them for the rest (DeRose, Kass and Truong 1998, with the mean taken over the creases that end).
+//! sharpness, and the rule without them for the rest (DeRose, Kass and Truong 1998, with the mean taken over the creases that end). So does
+//! an edge that has a rule from its ends, for the creases at these.
 
 use super::pass::{add_scaled, collected};
 use super::{Obstacle, Pass, Row};
@@ -15,15 +16,19 @@ impl Pass<'_, f64> {
     /// As [`Pass::row_at`].
     pub fn row_of_birth(&self, mesh: &HalfEdgeMesh, tags: &Tags, birth: Birth) -> Result<Row<u32, f64>, Obstacle> {
         let seen = |beyond: f64| Tagged { mesh, tags, beyond };
+        let at_vertex = |edge: u32| {
+            let spokes = mesh.around_vertex(edge).into_iter();
+            spokes.map(|spoke| tags.sharpness(first_corner(mesh, spoke)))
+        };
         let lasting = match birth {
             Birth::Face(edge) => return self.face_row(mesh, edge),
             Birth::Corner(edge) => return self.corner_row(mesh, edge),
-            Birth::Edge(edge) => lasting(std::iter::once(tags.sharpness(edge))),
+            Birth::Edge(edge) => lasting(std::iter::once(tags.sharpness(edge))).or_else(|| {
+                let told_from_ends = self.has_rules_from_sharp_ends() && !tags.creases().is_empty();
+                told_from_ends.then(|| lasting([edge, mesh.twin(edge)].into_iter().flat_map(at_vertex)))?
+            }),
             Birth::Vertex(edge) if tags.creases().is_empty() => return self.vertex_row(&seen(0.0), edge),
-            Birth::Vertex(edge) => {
-                let spokes = mesh.around_vertex(edge).into_iter();
-                lasting(spokes.map(|spoke| tags.sharpness(first_corner(mesh, spoke))))
-            }
+            Birth::Vertex(edge) => lasting(at_vertex(edge)),
         };
         let row = |beyond: f64| match birth {
             Birth::Vertex(edge) => self.vertex_row(&seen(beyond), edge),

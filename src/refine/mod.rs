@@ -5,6 +5,7 @@
 
 mod births;
 mod compact;
+mod ends;
 mod exact_weights;
 mod gather;
 mod growth;

@@ -59,12 +59,12 @@ impl<W: Number> Weigher<W> for ByFormula {
 
 /// The rules of one pass in one world of numbers.
 pub struct Pass<'a, W> {
-    scheme: &'a Scheme,
+    pub(super) scheme: &'a Scheme,
     told: PassRules<'a>,
-    boundary: Option<&'a RuleBook>,
+    pub(super) boundary: Option<&'a RuleBook>,
     weigher: Rc<dyn Weigher<W> + 'a>,
     /// Whether the boundary recedes in a step: rules inside the mesh hold on it, too, as far as they don't reach over it.
-    recedes: bool,
+    pub(super) recedes: bool,
     /// The lattice that it starts from, where it is applied to the canonical patch.
     on: Lattice,
     terms: RefCell<HashMap<(RuleKind, usize), Terms<'a, W>>>,
@@ -149,36 +149,13 @@ impl<'a, W: Field> Pass<'a, W> {
         self.apply(mesh, RuleKind::VertexCrease, faces, &spokes)
     }
 
-    /// The row of the new point on an edge. A rule told from an irregular end is applied from each such end, and the results
+    /// The row of the new point on an edge. A rule told from a special end is applied from each such end, and the results
     /// are averaged.
     ///
     /// # Errors
     /// As [`Pass::row_at`].
     pub fn edge_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
-        let halves = [edge, mesh.twin(edge)];
-        if mesh.is_sharp(edge) && !self.recedes {
-            return self.apply(mesh, RuleKind::EdgeCrease, 0, &halves);
-        }
-        if self.rules().contains_key(&RuleKind::EdgeFromIrregularEnd) {
-            let regular = self.scheme.regular_valence();
-            let irregular = |half: &&M::Edge| mesh.valence(**half) != regular && mesh.sharp_spokes(**half).len() < 2;
-            let ends: Vec<M::Edge> = halves.iter().filter(irregular).copied().collect();
-            if !ends.is_empty() {
-                return self.mean_from_ends(mesh, &ends);
-            }
-        }
-        self.apply(mesh, RuleKind::Edge, 0, &halves)
-    }
-
-    fn mean_from_ends<M: Connectivity>(&self, mesh: &M, ends: &[M::Edge]) -> Result<Row<M::Point, W>, Obstacle> {
-        let share = W::whole(1).over(&W::whole(ends.len() as i64))?;
-        let mut sum = Vec::new();
-        for end in ends {
-            let spokes = mesh.around_vertex(*end);
-            let row = self.apply(mesh, RuleKind::EdgeFromIrregularEnd, spokes.len(), &spokes)?;
-            add_scaled(&mut sum, &row, &share)?;
-        }
-        collected(sum)
+        self.row_from_ends(mesh, [edge, mesh.twin(edge)])
     }
 
     /// The row of the new point in the face to the left of `edge`.
@@ -205,7 +182,7 @@ impl<'a, W: Field> Pass<'a, W> {
         self.apply(mesh, RuleKind::Corner, corners.len(), &corners)
     }
 
-    fn apply<M: Connectivity>(
+    pub(super) fn apply<M: Connectivity>(
         &self,
         mesh: &M,
         kind: RuleKind,
@@ -229,7 +206,7 @@ impl<'a, W: Field> Pass<'a, W> {
 
     pub(super) fn rule(&self, kind: RuleKind) -> Result<(&'a RuleBook, &'a Rule), Obstacle> {
         let rule = if kind.is_boundary() {
-            self.boundary.and_then(|book| Some((book, book.rules.get(&kind)?)))
+            self.boundary.and_then(|book| book.told(kind))
         } else {
             self.rules().get(&kind).map(|rule| (&self.scheme.book, rule))
         };

@@ -63,6 +63,11 @@ impl<'a> Refiner<'a> {
         self.splits().all(Split::keeps_boundary)
     }
 
+    /// Whether points near a boundary or crease depend on which vertices there are special: rules are told from these.
+    pub fn tells_from_ends(&self) -> bool {
+        self.boundary.is_some_and(RuleBook::tells_from_ends)
+    }
+
     /// Whether every rule of the scheme inside the mesh is compact, so that points can be gathered.
     pub fn is_compact(&self) -> bool {
         matches!(self.passes.as_slice(), [pass] if pass.is_compact())

@@ -7,7 +7,9 @@
 use super::compact::Compact;
 use super::gather::{self, Coordinate, Point};
 use super::{Obstacle, Pass, Row};
-use crate::mesh::{Connectivity, Faces, HalfEdgeMesh, MAX_CORNERS, NONE, NotAMesh, Numbering, Split, Tags};
+use crate::mesh::{
+    Connectivity, Faces, HalfEdgeMesh, MAX_CORNERS, NONE, NotAMesh, Numbering, Split, Tags, first_corner,
+};
 use crate::scheme::{PassRules, RuleBook, Scheme};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -330,6 +332,20 @@ impl<'a> PassRefiner<'a> {
             left.extend([mesh.origin(*edge), mesh.target(*edge), on_edges + numbering.of_first(*edge)]);
         }
         left.extend(level.tags.corners());
+        if self.boundary.is_some_and(RuleBook::tells_from_ends) {
+            left.extend(self.edges_at_sharp_vertices(level).map(|edge| on_edges + numbering.of_first(edge)));
+        }
+    }
+
+    /// The edges at every vertex that a boundary or a crease leads to, or that is a corner, by their first corners.
+    fn edges_at_sharp_vertices<T>(&self, level: &Level<T>) -> impl Iterator<Item = u32> {
+        let (mesh, tags) = (&level.mesh, &level.tags);
+        let boundary = (0..mesh.twins().len()).filter(|h| mesh.twins()[*h] == NONE);
+        let mut vertices: Vec<u32> = boundary.flat_map(|h| [h as u32, mesh.twin(h as u32)]).collect();
+        vertices.extend(tags.creases().iter().flat_map(|(edge, _)| [*edge, mesh.twin(*edge)]));
+        vertices.extend(tags.corners().iter().map(|vertex| mesh.vertex_edges()[*vertex as usize]));
+        let spokes = vertices.into_iter().flat_map(|h| mesh.around_vertex(h));
+        spokes.map(|spoke| first_corner(mesh, spoke)).collect::<Vec<u32>>().into_iter()
     }
 
     /// The points of faces that have no weight in the table, and those of their edges and vertices, which may be made of them.

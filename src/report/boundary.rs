@@ -6,14 +6,16 @@ use super::{NoReport, csv::quoted};
 use crate::analysis::boundary::exact::ExactHalves;
 use crate::analysis::boundary::halves::Parity;
 use crate::analysis::boundary::masks::{FanMask, TangentMasks};
+use crate::analysis::boundary::modes::Mode;
 use crate::analysis::boundary::{BoundaryAnalysis, BoundaryAnalyzer};
 use crate::analysis::exact::{ExactEigenvalue, ExactWeight};
 use crate::analysis::spectrum::Eigenvalue;
 use crate::mesh::{FanKind, Label};
 use crate::refine::{Obstacle, OrbitNames, Refinement, lattice_of};
 use crate::scheme::{RuleBook, Scheme, catalogue};
-use crate::verdicts::bound;
+use crate::verdicts::{Decision, Evidence, Verdict, bound, c1_up_to_boundary};
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// The most eigenvalues of a part that a table lists.
@@ -56,6 +58,8 @@ pub struct BoundaryReport {
     pub characteristic_map: Option<Vec<PointReport>>,
     /// Why a mask is not there.
     pub why_not: Vec<String>,
+    /// Whether the surface is C1 up to the boundary.
+    pub verdict: Verdict,
     /// A power of ten above the approximate residuals of all right and left vectors that were computed, and their number.
     pub residual: ResidualReport,
 }
@@ -74,55 +78,96 @@ pub struct ParityReport {
     pub geometric: Option<usize>,
     /// The size of its largest Jordan block; null likewise.
     pub jordan: Option<usize>,
+    /// The wave over the sector that its eigenvector is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mode: Option<ModeReport>,
 }
 
-/// The reports at these numbers of faces: crease and corner, and from three faces on the dart, with the first boundary file that the
-/// scheme names.
+/// A wave over the sector.
+#[derive(Clone, Debug, Serialize)]
+pub struct ModeReport {
+    /// sine or cosine.
+    pub wave: &'static str,
+    /// m: the wave is sin(j m pi/k) or cos(j m pi/k) on spoke j; at a dart 2 pi/n stands for pi/k.
+    pub number: usize,
+    /// `exact` where exact rows show it, else `approximate`: so looks the vector in floating numbers.
+    pub arithmetic: &'static str,
+    /// Its eigenvalue for all k, or the equation that it solves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub formula: Option<String>,
+}
+
+/// A boundary file under its name.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// Its name, as it was asked for.
+    pub name: String,
+    /// Its rules.
+    pub book: RuleBook,
+}
+
+impl Variant {
+    /// The boundary files that a scheme names, the default first.
+    ///
+    /// # Errors
+    /// When the scheme names none; faults of the files.
+    pub fn all_of(scheme: &Scheme) -> Result<Vec<Variant>, NoReport> {
+        let open = |name: &String| {
+            let book = catalogue::boundary(name, &scheme.mesh).ok_or_else(no_boundary_file)?;
+            Ok(Variant { name: name.clone(), book: book.map_err(NoReport::Faults)? })
+        };
+        if scheme.boundary.is_empty() { Err(no_boundary_file()) } else { scheme.boundary.iter().map(open).collect() }
+    }
+}
+
+/// What is said where there are no rules to be taken.
+pub fn no_boundary_file() -> NoReport {
+    NoReport::Obstacle(Obstacle::Limit(
+        "the scheme names no boundary file, whose rules the analysis at a boundary takes: add for example boundary = [\"cubic\"] to \
+         the scheme file"
+            .to_string(),
+    ))
+}
+
+/// The reports at these numbers of faces: crease and corner, and from three faces on the dart, with each of the boundary files; those of one
+/// kind of vertex stand side by side.
 ///
 /// # Errors
-/// When the scheme names none; faults of either file, or what stood in the way.
+/// Faults of the files, or what stood in the way.
 pub fn boundary(
     scheme: &Scheme,
+    variants: &[Variant],
     faces: &[usize],
     digits: usize,
     done: &dyn Fn(),
 ) -> Result<Vec<BoundaryReport>, NoReport> {
-    let (variant, book) = variant(scheme)?;
-    let analyzer = BoundaryAnalyzer::new(scheme, &book).map_err(NoReport::of(scheme))?;
     let names = OrbitNames::of(&Refinement::<f64>::new(scheme, None), lattice_of(scheme));
     let mut counts = faces.to_vec();
     counts.push(scheme.regular_valence() / 2);
-    book.check(&counts, scheme.regular_valence()).map_err(NoReport::Faults)?;
+    let mut analyzers = Vec::new();
+    for variant in variants {
+        variant.book.check(&counts, scheme.regular_valence()).map_err(NoReport::Faults)?;
+        let analyzer = BoundaryAnalyzer::new(scheme, &variant.book).map_err(NoReport::of(scheme))?;
+        analyzers.push((variant, analyzer));
+    }
     let mut reports = Vec::new();
     let kinds: [fn(usize) -> FanKind; 3] =
         [|faces| FanKind::Crease { faces }, |faces| FanKind::Corner { faces }, |faces| FanKind::Dart { faces }];
     for of in kinds {
         for kind in faces.iter().map(|faces| of(*faces)).filter(|kind| kind.faces() >= kind.least_faces()) {
-            let analysis = analyzer.at(kind).map_err(NoReport::of(scheme))?;
-            let exact = analyzer.exact(&analysis.local);
-            reports.push(report((&variant, &book), &analysis, exact, &names, digits));
+            for (variant, analyzer) in &analyzers {
+                let analysis = analyzer.at(kind).map_err(NoReport::of(scheme))?;
+                let exact = analyzer.exact(&analysis.local);
+                reports.push(report(variant, &analysis, exact, &names, digits));
+            }
             done();
         }
     }
     Ok(reports)
 }
 
-/// The boundary file that a scheme takes, with its rules.
-fn variant(scheme: &Scheme) -> Result<(String, RuleBook), NoReport> {
-    let none = || {
-        NoReport::Obstacle(Obstacle::Limit(
-            "the scheme names no boundary file, whose rules the analysis at a boundary takes: add for example boundary = [\"cubic\"] to \
-             the scheme file"
-                .to_string(),
-        ))
-    };
-    let name = scheme.boundary.first().ok_or_else(none)?;
-    let book = catalogue::boundary(name, &scheme.mesh).ok_or_else(none)?.map_err(NoReport::Faults)?;
-    Ok((name.clone(), book))
-}
-
 fn report(
-    (variant, book): (&str, &RuleBook),
+    variant: &Variant,
     analysis: &BoundaryAnalysis,
     exact: Result<ExactHalves, Obstacle>,
     names: &OrbitNames,
@@ -137,16 +182,20 @@ fn report(
     let spell = |mask: &FanMask| mask.iter().map(|(label, weight)| spelled(analysis, names, *label, *weight)).collect();
     BoundaryReport {
         kind: analysis.fan.kind().name(),
-        variant: variant.to_string(),
-        source: book.sources.clone(),
+        variant: variant.name.clone(),
+        source: variant.book.all_sources(),
         faces: analysis.fan.sectors() as usize,
         size: analysis.local.size(),
         steps: 1,
         dilation: 2,
         eigenvalues: match &known {
-            Some(exact) => exact.eigenvalues.iter().map(|e| exact_eigenvalue(e, digits)).collect(),
-            None => analysis.spectrum.distinct().iter().map(approximate_eigenvalue).collect(),
+            Some(exact) => exact_eigenvalues(analysis, exact, digits),
+            None => {
+                let with_mode = |e: &Eigenvalue| ParityReport { mode: seen(analysis, e), ..approximate_eigenvalue(e) };
+                analysis.spectrum.distinct().iter().map(with_mode).collect()
+            }
         },
+        verdict: c1_up_to_boundary(analysis, known.as_ref()),
         arithmetic: if known.is_some() { "exact" } else { "approximate" },
         why_not_exact,
         limit_mask: analysis.limit_mask.as_ref().ok().map(|mask| {
@@ -178,7 +227,31 @@ fn exact_eigenvalue(e: &ExactEigenvalue, digits: usize) -> ParityReport {
         algebraic: e.algebraic.unwrap_or(0),
         geometric: e.structure.map(|structure| structure.geometric),
         jordan: e.structure.map(|structure| structure.largest),
+        mode: None,
     }
+}
+
+/// Exact eigenvalues with the waves that their vectors are: exactly so, or as seen in floating numbers.
+fn exact_eigenvalues(analysis: &BoundaryAnalysis, exact: &ExactHalves, digits: usize) -> Vec<ParityReport> {
+    let mut reports: Vec<ParityReport> = exact.eigenvalues.iter().map(|e| exact_eigenvalue(e, digits)).collect();
+    for e in analysis.spectrum.distinct() {
+        let own = exact.eigenvalue_at(&e).and_then(|own| exact.eigenvalues.iter().position(|e| std::ptr::eq(e, own)));
+        if let Some(at) = own {
+            reports[at].mode = seen(analysis, &e);
+        }
+    }
+    for (at, mode) in &exact.sines {
+        let formula = exact.sine_rows.as_ref().and_then(|rows| rows.formula(mode.number));
+        reports[*at].mode = Some(ModeReport { wave: mode.name(), number: mode.number, arithmetic: "exact", formula });
+    }
+    reports
+}
+
+/// The wave that an eigenvector is as far as floating numbers tell.
+fn seen(analysis: &BoundaryAnalysis, e: &Eigenvalue) -> Option<ModeReport> {
+    let (vector, _) = analysis.spectrum.right_vector(&analysis.halves, &analysis.cores, e)?;
+    let mode = Mode::of_vector(&analysis.local, &vector)?;
+    Some(ModeReport { wave: mode.name(), number: mode.number, arithmetic: "approximate", formula: None })
 }
 
 fn approximate_eigenvalue(e: &Eigenvalue) -> ParityReport {
@@ -188,6 +261,7 @@ fn approximate_eigenvalue(e: &Eigenvalue) -> ParityReport {
         algebraic: e.cluster,
         geometric: e.is_isolated().then_some(1),
         jordan: e.is_isolated().then_some(1),
+        mode: None,
     }
 }
 
@@ -231,33 +305,71 @@ fn net(analysis: &BoundaryAnalysis, own: &TangentMasks) -> Vec<PointReport> {
 
 /// The tables of a report.
 pub(super) fn tables(reports: &[BoundaryReport]) -> Vec<Table> {
-    let Some(first) = reports.first() else { return vec![] };
-    vec![overview(reports, &first.variant), masks(reports), eigenvalues(reports)]
+    if reports.is_empty() { vec![] } else { vec![overview(reports), masks(reports), eigenvalues(reports)] }
+}
+
+/// The names of the boundary files, in order.
+fn variants(reports: &[BoundaryReport]) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for own in reports {
+        if !names.contains(&own.variant.as_str()) {
+            names.push(&own.variant);
+        }
+    }
+    names
+}
+
+/// A table with the columns `vertex` and `k`, and with `rules` where boundary files stand side by side.
+fn table(
+    reports: &[BoundaryReport],
+    (title, note): (&str, String),
+    head: &[&str],
+    rows: impl Iterator<Item = (usize, Vec<Cell>)>,
+) -> Table {
+    let several = variants(reports).len() > 1;
+    let place = |own: &BoundaryReport| -> Vec<Cell> {
+        let rules = several.then(|| own.variant.as_str().into());
+        [own.kind.into(), own.faces.to_string().into()].into_iter().chain(rules).collect()
+    };
+    let rules = if several { &["rules"][..] } else { &[] };
+    let head = ["vertex", "k"].iter().chain(rules).chain(head).map(|word| (*word).to_string()).collect();
+    let rows = rows.map(|(at, cells)| place(&reports[at]).into_iter().chain(cells).collect()).collect();
+    Table { title: title.to_string(), note, head, rows }
 }
 
 /// The title of the first table.
 pub const TITLE: &str = "At a boundary";
 
-fn overview(reports: &[BoundaryReport], variant: &str) -> Table {
+fn overview(reports: &[BoundaryReport]) -> Table {
+    let names = variants(reports);
+    let files = if names.len() > 1 { "Boundary files" } else { "Boundary file" };
     let note = format!(
-        "Boundary file: {variant}. A boundary is a crease with nothing beyond it; k is the number of faces on one side of it, at a corner those \
+        "{files}: {}. A boundary is a crease with nothing beyond it; k is the number of faces on one side of it, at a corner those \
          between its two edges, at a dart all around the vertex at which a crease ends. The largest eigenvalues after 1, over the full \
-         neighbourhood of the size given, with their parity under the mirror. The masks and whether there is a tangent plane are approximate: the \
-         characteristic map is looked at by its control net around the vertex."
+         neighbourhood of the size given, with their parity under the mirror and the wave over the sector that the vector is: sine mode m is sin(j m pi/k) \
+         on spoke j. The masks and whether there is a tangent plane are approximate: the \
+         characteristic map is looked at by its control net around the vertex.",
+        names.join(", ")
     );
-    let row = |own: &BoundaryReport| -> Vec<Cell> {
+    let row = |(at, own): (usize, &BoundaryReport)| {
         let rest = own.eigenvalues.iter().filter(|e| e.quantity.value != [1.0, 0.0] || e.parity != "even");
         let leading: Vec<Cell> = rest.take(3).map(eigenvalue).collect();
-        vec![
-            own.kind.into(),
-            own.faces.to_string().into(),
-            own.size.to_string().into(),
-            Cell::joined(&leading),
-            own.tangent_plane().into(),
-        ]
+        let c1 = in_short(&own.verdict);
+        (at, vec![own.size.to_string().into(), Cell::joined(&leading), own.tangent_plane().into(), c1.into()])
     };
-    let head = ["vertex", "k", "size", "largest eigenvalues after 1", "tangent plane"].map(str::to_string).to_vec();
-    Table { title: TITLE.to_string(), note, head, rows: reports.iter().map(row).collect() }
+    let head = ["size", "largest eigenvalues after 1", "tangent plane", "C1 up to the boundary"];
+    table(reports, (TITLE, note), &head, reports.iter().enumerate().map(row))
+}
+
+/// `undecided (evidence for)`
+fn in_short(verdict: &Verdict) -> String {
+    match (verdict.verdict, verdict.evidence) {
+        (Decision::Proved, _) => "proved".to_string(),
+        (Decision::Refuted, _) => "refuted".to_string(),
+        (Decision::Undecided, Evidence::For) => "undecided (evidence for)".to_string(),
+        (Decision::Undecided, Evidence::Against) => "undecided (evidence against)".to_string(),
+        (Decision::Undecided, Evidence::None) => "undecided".to_string(),
+    }
 }
 
 impl BoundaryReport {
@@ -281,7 +393,8 @@ fn eigenvalue(e: &ParityReport) -> Cell {
         Some(size) if size > 1 => format!(", Jordan block of size {size}"),
         _ => String::new(),
     };
-    let remark = format!(" ({}{times}{block})", e.parity);
+    let mode = e.mode.as_ref().map_or(String::new(), |mode| format!(", {} mode {}", mode.wave, mode.number));
+    let remark = format!(" ({}{mode}{times}{block})", e.parity);
     Cell { text: format!("{}{remark}", cell.text), latex: cell.latex.map(|latex| format!("{latex}{remark}")) }
 }
 
@@ -289,16 +402,13 @@ fn masks(reports: &[BoundaryReport]) -> Table {
     let note = "Left vectors, applied to the points at any level. Edge neighbours (ring) are counted from spoke 0, counter-clockwise. The limit mask \
                 sums to 1. The first tangent runs along the crease, towards spoke 0; first x second is the outward normal; the largest weight of each \
                 is 1 or -1. Longer masks are cut short here and whole in the JSON form.";
-    let row = |own: &BoundaryReport, name: &str, mask: &[WeightReport]| -> Vec<Cell> {
-        vec![own.kind.into(), own.faces.to_string().into(), name.into(), weights(mask).into()]
-    };
-    let rows = reports.iter().flat_map(|own| {
-        let limit = own.limit_mask.iter().map(move |mask| row(own, "limit", mask));
+    let row = |at: usize, name: &str, mask: &[WeightReport]| (at, vec![name.into(), weights(mask).into()]);
+    let rows = reports.iter().enumerate().flat_map(|(at, own)| {
+        let limit = own.limit_mask.iter().map(move |mask| row(at, "limit", mask));
         let tangents = own.tangent_masks.iter().flatten().zip(["first tangent", "second tangent"]);
-        limit.chain(tangents.map(move |(mask, name)| row(own, name, mask)))
+        limit.chain(tangents.map(move |(mask, name)| row(at, name, mask)))
     });
-    let head = ["vertex", "k", "mask", "weights"].map(str::to_string).to_vec();
-    Table { title: "Masks at a boundary".to_string(), note: note.to_string(), head, rows: rows.collect() }
+    table(reports, ("Masks at a boundary", note.to_string()), &["mask", "weights"], rows)
 }
 
 /// `centre 2/3, ring[0] 1/6, ring[3] 1/6`
@@ -321,18 +431,35 @@ fn short(value: f64) -> String {
 }
 
 fn eigenvalues(reports: &[BoundaryReport]) -> Table {
-    let row = |own: &BoundaryReport, parity: Parity| -> Vec<Cell> {
+    let row = |at: usize, own: &BoundaryReport, parity: Parity| -> (usize, Vec<Cell>) {
         let of_part: Vec<&ParityReport> = own.eigenvalues.iter().filter(|e| e.parity == parity.name()).collect();
         let mut cells: Vec<Cell> = of_part.iter().take(MOST_EIGENVALUES).map(|e| eigenvalue_of_part(e)).collect();
         if of_part.len() > MOST_EIGENVALUES {
             cells.push("...".into());
         }
-        vec![own.kind.into(), own.faces.to_string().into(), parity.name().into(), Cell::joined(&cells)]
+        (at, vec![parity.name().into(), Cell::joined(&cells)])
     };
-    let rows = reports.iter().flat_map(|own| Parity::BOTH.map(|parity| row(own, parity)));
+    let rows = reports.iter().enumerate().flat_map(|(at, own)| Parity::BOTH.map(|parity| row(at, own, parity)));
     let note = "Largest modulus first. The mirror exchanges the two sides; a function is even if it is the same in the mirror, odd if its sign changes.";
-    let head = ["vertex", "k", "part", "eigenvalues"].map(str::to_string).to_vec();
-    Table { title: "Eigenvalues at a boundary".to_string(), note: note.to_string(), head, rows: rows.collect() }
+    let note = format!("{note}{}", formulas_of_modes(reports));
+    table(reports, ("Eigenvalues at a boundary", note), &["part", "eigenvalues"], rows)
+}
+
+/// ` Sine modes for all k: ...`, where there are such.
+fn formulas_of_modes(reports: &[BoundaryReport]) -> String {
+    let modes =
+        reports.iter().flat_map(|own| own.eigenvalues.iter().filter_map(move |e| Some((own, e.mode.as_ref()?))));
+    let firsts = modes.filter(|(_, mode)| mode.number == 1 && mode.arithmetic == "exact");
+    let formulas: BTreeSet<String> = firsts
+        .filter_map(|(own, mode)| Some(format!("{} (rules `{}`)", mode.formula.as_ref()?, own.variant)))
+        .collect();
+    match formulas.len() {
+        0 => String::new(),
+        _ => format!(
+            " Sine mode 1 has for all k the eigenvalue {}; mode m has m pi for pi.",
+            formulas.into_iter().collect::<Vec<_>>().join(", ")
+        ),
+    }
 }
 
 fn eigenvalue_of_part(e: &ParityReport) -> Cell {
@@ -343,9 +470,9 @@ fn eigenvalue_of_part(e: &ParityReport) -> Cell {
 
 /// The numbers as one tidy table.
 pub fn boundary_csv(reports: &[BoundaryReport]) -> String {
-    let mut text = "kind,faces,quantity,at,parity,sector,i,j,value,imaginary\n".to_string();
+    let mut text = "kind,faces,rules,quantity,at,parity,sector,i,j,value,imaginary\n".to_string();
     for own in reports {
-        let place = format!("{},{}", own.kind, own.faces);
+        let place = format!("{},{},{}", own.kind, own.faces, quoted(&own.variant));
         let _ = writeln!(text, "{place},size,,,,,,{},", own.size);
         for e in &own.eigenvalues {
             for _ in 0..e.algebraic {
@@ -367,17 +494,21 @@ pub fn boundary_csv(reports: &[BoundaryReport]) -> String {
 
 /// The numbers for a terminal.
 pub fn terminal(reports: &[BoundaryReport]) -> String {
-    let Some(first) = reports.first() else { return String::new() };
+    let names = variants(reports);
+    let [first, ..] = names[..] else { return String::new() };
+    let width = if names.len() > 1 { names.iter().map(|name| name.len() + 1).max().unwrap_or(0) } else { 0 };
+    let by = if names.len() > 1 { "several rules side by side".to_string() } else { format!("the rules `{first}`") };
     let mut text = format!(
-        "\nAt a boundary, by the rules `{}`; the two largest eigenvalues after 1, with their parity:\n{:>8} {:>4} {:>6} {:>17} {:>17}  tangent plane\n",
-        first.variant, "", "k", "points", "", ""
+        "\nAt a boundary, by {by}; the two largest eigenvalues after 1, with their parity:\n{:>8} {:>4} {:width$}{:>6} {:>28} {:>28}  tangent plane\n",
+        "", "k", "", "points", "", ""
     );
     for own in reports {
         let rest = own.eigenvalues.iter().filter(|e| e.quantity.value != [1.0, 0.0] || e.parity != "even");
         let mut leading = rest.map(|e| {
             let [re, im] = e.quantity.value;
             let value = if im == 0.0 { format!("{re:.10}") } else { format!("{re:.4}{im:+.4}i") };
-            format!("{value} {:<4}", e.parity)
+            let mode = e.mode.as_ref().map_or(String::new(), |mode| format!(" {} {}", mode.wave, mode.number));
+            format!("{value} {:<4}{mode:<10}", e.parity)
         });
         let mut next = || leading.next().unwrap_or("-".to_string());
         let (a, b) = (next(), next());
@@ -386,7 +517,9 @@ pub fn terminal(reports: &[BoundaryReport]) -> String {
             "none found: ",
             1,
         );
-        let _ = writeln!(text, "{:>8} {:>4} {:>6} {a:>17} {b:>17}  {plane}", own.kind, own.faces, own.size);
+        let rules = if width > 0 { own.variant.as_str() } else { "" };
+        let _ =
+            writeln!(text, "{:>8} {:>4} {rules:<width$}{:>6} {a:>28} {b:>28}  {plane}", own.kind, own.faces, own.size);
     }
     text
 }

@@ -41,7 +41,11 @@ pub const SCHEMES: [Listed; 13] = listed! {
 };
 
 /// Every boundary file of the catalogue.
-pub const BOUNDARIES: [Listed; 1] = listed! { "cubic" => "boundary/cubic.toml" };
+pub const BOUNDARIES: [Listed; 3] = listed! {
+    "cubic" => "boundary/cubic.toml",
+    "hoppe-1994" => "boundary/hoppe-1994.toml",
+    "biermann-levin-zorin-2000" => "boundary/biermann-levin-zorin-2000.toml",
+};
 
 /// The file of a scheme of the catalogue.
 pub fn scheme(id: &str) -> Option<Listed> {

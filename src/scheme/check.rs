@@ -57,7 +57,8 @@ impl RuleBook {
     pub fn check(&self, counts: &[usize], regular: usize) -> Result<Vec<RuleSum>, Faults> {
         let mut faults: Vec<Fault> = self.parameters.iter().filter_map(|p| self.check_parameter(p).err()).collect();
         faults.extend(self.passes.iter().filter_map(|pass| self.check_repeat(pass).err()));
-        let mut sums = Vec::new();
+        let mut sums = self.like.as_ref().map_or(Ok(Vec::new()), |like| like.check(counts, regular))?;
+        sums.retain(|sum| !self.rules.contains_key(&sum.kind));
         if faults.is_empty() {
             for rule in self.all_rules() {
                 let cases = self.check_cases(rule, counts, regular);
@@ -363,7 +364,7 @@ impl RuleBook {
         size: RingSize,
     ) -> Option<Laurent> {
         let weights = self.select(&entry.weights, place).ok()?;
-        let counts_nothing = entry.position.once || kind.variable().is_none();
+        let counts_nothing = entry.position.once || !kind.grows();
         if counts_nothing || matches!(size, RingSize::Exactly(_)) && entry.picks.is_some() {
             return self.sum_of_points(entry, kind, place);
         }
@@ -394,22 +395,18 @@ impl RuleBook {
 
 /// The least count that a rule is applied at; 0 for rules that count nothing.
 fn least_count(kind: RuleKind) -> i64 {
-    match kind.variable() {
-        None => 0,
-        Some("k") => 1,
-        Some(_) => 3,
+    match (kind, kind.variable()) {
+        (_, None) => 0,
+        // an edge inside the mesh between two sharp ones
+        (RuleKind::EdgeFromCreaseEnd | RuleKind::EdgeFromCornerEnd, _) => 2,
+        (_, Some("k")) => 1,
+        _ => 3,
     }
 }
 
 /// How many points a class has where the rule's count is `count`.
 pub(crate) fn class_size(entry: &Entry, kind: RuleKind, count: i64) -> usize {
-    let starts = match kind {
-        _ if entry.position.once => 1,
-        RuleKind::Edge | RuleKind::EdgeCrease => 2,
-        RuleKind::VertexCrease => count + 1,
-        RuleKind::VertexCorner => 1,
-        _ => count,
-    };
+    let starts = if entry.position.once { 1 } else { kind.starts(count) };
     starts.max(0) as usize * entry.position.walks.len()
 }
 
@@ -425,7 +422,7 @@ fn points_in_words(entry: &Entry, kind: RuleKind) -> String {
     match (&entry.picks, kind) {
         (Some(picks), _) => format!("{} x {name}", picks.len()),
         _ if entry.position.once => name.clone(),
-        (_, RuleKind::Edge | RuleKind::EdgeCrease) => format!("{} x {name}", class_size(entry, kind, 0)),
+        _ if !kind.grows() => format!("{} x {name}", class_size(entry, kind, 0)),
         (_, RuleKind::VertexCrease) => format!("(k+1) x {name}"),
         _ => format!("n x {name}"),
     }

@@ -188,6 +188,8 @@ pub struct RuleBook {
     pub rules: BTreeMap<RuleKind, Rule>,
     /// The passes of a step of several.
     pub passes: Vec<Pass>,
+    /// The boundary file whose rules hold where this one has none.
+    pub like: Option<Box<RuleBook>>,
     /// The number of corners of every face that a rule is told around, where it is the same for all.
     pub face_corners: Option<i64>,
 }
@@ -196,6 +198,25 @@ impl RuleBook {
     /// The rules of all passes.
     pub fn all_rules(&self) -> impl Iterator<Item = &Rule> {
         self.rules.values().chain(self.passes.iter().flat_map(|pass| pass.rules.values()))
+    }
+
+    /// The rule of a kind, with the file that tells it: this one, or that which it is like.
+    pub fn told(&self, kind: RuleKind) -> Option<(&RuleBook, &Rule)> {
+        let own = self.rules.get(&kind).map(|rule| (self, rule));
+        own.or_else(|| self.like.as_ref().and_then(|like| like.told(kind)))
+    }
+
+    /// The sources of this file and of that which it is like, each once.
+    pub fn all_sources(&self) -> Vec<String> {
+        let mut all = self.sources.clone();
+        let more = self.like.as_ref().map_or(vec![], |like| like.all_sources());
+        all.extend(more.into_iter().filter(|source| !self.sources.contains(source)));
+        all
+    }
+
+    /// Whether rules for edges are told from their ends on a boundary or crease: then vertices there look at their neighbours.
+    pub fn tells_from_ends(&self) -> bool {
+        RuleKind::FROM_ENDS.iter().any(|kind| self.told(*kind).is_some())
     }
 
     /// The faults as an error about this file.

@@ -38,11 +38,26 @@ pub enum RuleKind {
     /// An edge of the boundary or of a crease.
     #[serde(rename = "edge.crease")]
     EdgeCrease,
+    /// Such an edge, told from an end that is a corner, or has a side whose number of faces is not the regular one.
+    #[serde(rename = "edge.crease.from-irregular-end")]
+    CreaseFromIrregularEnd,
+    /// Such an edge, told from an end at which the crease ends.
+    #[serde(rename = "edge.crease.from-dart-end")]
+    CreaseFromDartEnd,
+    /// An edge inside the mesh, told from an end that the boundary or a crease passes through.
+    #[serde(rename = "edge.from-crease-end")]
+    EdgeFromCreaseEnd,
+    /// An edge inside the mesh, told from an end that is a corner between two sharp edges.
+    #[serde(rename = "edge.from-corner-end")]
+    EdgeFromCornerEnd,
+    /// An edge inside the mesh, told from an end at which one crease ends.
+    #[serde(rename = "edge.from-dart-end")]
+    EdgeFromDartEnd,
 }
 
 impl RuleKind {
     /// Every kind of rule with its table in a scheme file.
-    pub const ALL: [(&'static str, RuleKind); 8] = [
+    pub const ALL: [(&'static str, RuleKind); 13] = [
         ("vertex", RuleKind::Vertex),
         ("edge", RuleKind::Edge),
         ("edge.from-irregular-end", RuleKind::EdgeFromIrregularEnd),
@@ -51,6 +66,20 @@ impl RuleKind {
         ("vertex.crease", RuleKind::VertexCrease),
         ("vertex.corner", RuleKind::VertexCorner),
         ("edge.crease", RuleKind::EdgeCrease),
+        ("edge.crease.from-irregular-end", RuleKind::CreaseFromIrregularEnd),
+        ("edge.crease.from-dart-end", RuleKind::CreaseFromDartEnd),
+        ("edge.from-crease-end", RuleKind::EdgeFromCreaseEnd),
+        ("edge.from-corner-end", RuleKind::EdgeFromCornerEnd),
+        ("edge.from-dart-end", RuleKind::EdgeFromDartEnd),
+    ];
+
+    /// The rules for edges that a boundary file may tell from one of their ends.
+    pub const FROM_ENDS: [RuleKind; 5] = [
+        RuleKind::CreaseFromIrregularEnd,
+        RuleKind::CreaseFromDartEnd,
+        RuleKind::EdgeFromCreaseEnd,
+        RuleKind::EdgeFromCornerEnd,
+        RuleKind::EdgeFromDartEnd,
     ];
 
     /// The rule's table in a scheme file.
@@ -61,15 +90,33 @@ impl RuleKind {
     /// The variable that formulas of this rule may use beside parameters and `[let]` names.
     pub fn variable(self) -> Option<&'static str> {
         match self {
-            RuleKind::Edge | RuleKind::EdgeCrease | RuleKind::VertexCorner => None,
-            RuleKind::VertexCrease => Some("k"),
+            RuleKind::Edge | RuleKind::EdgeCrease | RuleKind::VertexCorner | RuleKind::CreaseFromIrregularEnd => None,
+            RuleKind::VertexCrease | RuleKind::EdgeFromCreaseEnd | RuleKind::EdgeFromCornerEnd => Some("k"),
             _ => Some("n"),
         }
+    }
+
+    /// The number of half-edges that a rule is told around, where its count is `count`.
+    pub fn starts(self, count: i64) -> i64 {
+        match self {
+            RuleKind::Edge | RuleKind::EdgeCrease => 2,
+            RuleKind::VertexCorner | RuleKind::CreaseFromIrregularEnd => 1,
+            RuleKind::VertexCrease => count + 1,
+            // the edge itself and those beside it
+            kind if RuleKind::FROM_ENDS.contains(&kind) => 3,
+            _ => count,
+        }
+    }
+
+    /// Whether the number of half-edges depends on the count.
+    pub fn grows(self) -> bool {
+        self.starts(3) != self.starts(4)
     }
 
     /// Whether this rule belongs in a boundary file.
     pub fn is_boundary(self) -> bool {
         matches!(self, RuleKind::VertexCrease | RuleKind::VertexCorner | RuleKind::EdgeCrease)
+            || RuleKind::FROM_ENDS.contains(&self)
     }
 }
 
@@ -157,6 +204,11 @@ pub struct Position {
 }
 
 impl Position {
+    /// Whether its points run from one sharp edge to another, so that counting does not go round.
+    pub fn is_open(&self) -> bool {
+        self.around.contains(&RuleKind::VertexCrease)
+    }
+
     /// Whether its points are made by the same step.
     pub fn births(&self) -> Option<RuleKind> {
         self.walks.iter().find_map(|walk| match walk.arrival {

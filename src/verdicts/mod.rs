@@ -3,8 +3,10 @@
 //! Each condition gets its value, a verdict and its reasons. A verdict is *proved* or *refuted* on exact or enclosed values
 //! only; what rests on floating numbers is *undecided*, with the evidence named and what is missing.
 
+mod boundary;
 mod claims;
 
+pub use boundary::c1_up_to_boundary;
 pub use claims::{ClaimCheck, Outcome, check_claims};
 
 use crate::analysis::Analysis;

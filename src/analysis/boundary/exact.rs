@@ -15,6 +15,7 @@ use super::super::exact::{BITS, ExactEigenvalue, ExactWeight, TOO_LARGE_A_FIELD,
 use super::super::spectrum::{Eigenvalue, NEAR};
 use super::halves::{Halves, Parity};
 use super::local::FanMatrix;
+use super::modes::{Mode, SineRows};
 use crate::fault::Fault;
 use crate::mesh::Label;
 use crate::numbers::real_root::Embedding;
@@ -36,6 +37,10 @@ pub struct ExactHalves {
     pub certain: Vec<bool>,
     /// The limit mask.
     pub limit_mask: Option<Vec<(Label, ExactWeight)>>,
+    /// The sine modes: the eigenvalue's index and the wave, where exact rows show that there are such.
+    pub sines: Vec<(usize, Mode)>,
+    /// The rows that these come from.
+    pub sine_rows: Option<SineRows>,
 }
 
 impl ExactHalves {
@@ -80,6 +85,21 @@ impl ExactHalves {
         level(a).is_some_and(|own| level(b) == Some(own) && self.certain[own])
     }
 
+    /// The eigenvalue of a sine mode, which has this value: odd modes are even in the mirror. Exact eigenvalues of a part are so far apart
+    /// that only one can be meant, or it is left open.
+    fn the_one_at(&self, mode: Mode, value: f64) -> Option<(usize, Mode)> {
+        let part = if mode.number % 2 == 1 { Parity::Even } else { Parity::Odd }.part();
+        let own = self.eigenvalues.iter().enumerate().filter(|(_, e)| e.frequency == part && e.is_real());
+        let mut near = own.filter(|(_, e)| (e.re.midpoint_f64() - value).abs() <= NEAR);
+        let found = near.next().map(|(index, _)| (index, mode));
+        if near.next().is_some() { None } else { found }
+    }
+
+    /// The sine mode that an eigenvalue belongs to.
+    pub fn sine_of(&self, index: usize) -> Option<Mode> {
+        self.sines.iter().find(|(own, _)| *own == index).map(|(_, mode)| *mode)
+    }
+
     fn near(&self, e: &Eigenvalue) -> impl Iterator<Item = &ExactEigenvalue> {
         let (value, part, radius) = (e.value, e.frequency, e.approx_error.max(NEAR));
         let distance = move |own: &ExactEigenvalue| {
@@ -119,19 +139,25 @@ fn block(halves: &Halves<Cosine>, parity: Parity) -> Result<Block<Cosine>, Troub
 }
 
 fn analyse(world: &AtValence, matrix: &FanMatrix<Cosine>) -> Result<ExactHalves, Obstacle> {
-    let halves = Halves::of(matrix.rows.clone(), &matrix.mirror);
-    let blocks = Parity::BOTH.map(|parity| block(&halves, parity));
+    let parts = Halves::of(matrix.rows.clone(), &matrix.mirror);
+    let blocks = Parity::BOTH.map(|parity| block(&parts, parity));
     let blocks = blocks.into_iter().collect::<Result<Vec<_>, Trouble>>()?;
     let theta = world.field().theta::<BITS>()?;
     let embedding = |value: &Cosine| value.enclosed(&theta);
     let split = |_: usize, polynomial: &Univariate<Cosine>| pieces(polynomial, &[]);
     let spectrum = Spectrum::of(blocks, &split, &embedding)?;
     let eigenvalues = spectrum.eigenvalues.iter().map(|e| described(&spectrum, e, &embedding, &[]));
-    Ok(ExactHalves {
+    let mut halves = ExactHalves {
         eigenvalues: eigenvalues.collect::<Result<_, _>>()?,
         certain: spectrum.certain.clone(),
         limit_mask: limit_mask(&spectrum, matrix, &embedding),
-    })
+        sines: vec![],
+        sine_rows: SineRows::of(matrix),
+    };
+    let number = |weight: &Cosine| Some(embedding(weight).ok()?.midpoint_f64());
+    let waves = halves.sine_rows.as_ref().and_then(|rows| rows.values(&number)).unwrap_or_default();
+    halves.sines = waves.into_iter().filter_map(|(mode, value)| halves.the_one_at(mode, value)).collect();
+    Ok(halves)
 }
 
 /// The left vector of 1 in the even part, where 1 is simple: half of the value at a node stands for each of two points.

@@ -11,6 +11,7 @@ pub mod influence;
 mod leading;
 pub mod local;
 pub mod masks;
+pub mod modes;
 
 use super::cores::Cores;
 use super::spectrum::Spectrum;

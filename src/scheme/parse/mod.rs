@@ -22,7 +22,7 @@ use toml::de::{DeTable, DeValue};
 pub const MAX_FILE_BYTES: usize = 1 << 16;
 
 /// Every key of a scheme file and of a boundary file, as the README's table lists them.
-pub const KEYS: [&str; 24] = [
+pub const KEYS: [&str; 28] = [
     "name",
     "mesh",
     "split",
@@ -47,11 +47,19 @@ pub const KEYS: [&str; 24] = [
     "claims.equals",
     "claims.source",
     "vertex.crease, vertex.corner, edge.crease",
+    "edge.crease.from-irregular-end, edge.crease.from-dart-end",
+    "edge.from-crease-end, edge.from-corner-end, edge.from-dart-end",
+    "like",
+    "triangles, quads",
 ];
 
 const SCHEME_KEYS: [&str; 12] =
     ["name", "mesh", "split", "source", "boundary", "parameters", "let", "vertex", "edge", "face", "corner", "pass"];
-const BOUNDARY_KEYS: [&str; 6] = ["name", "source", "parameters", "let", "vertex", "edge"];
+const BOUNDARY_KEYS: [&str; 9] =
+    ["name", "source", "like", "parameters", "let", "vertex", "edge", ON_TRIANGLES, ON_QUADS];
+/// The tables of a boundary file for one kind of mesh only.
+const ON_TRIANGLES: &str = "triangles";
+const ON_QUADS: &str = "quads";
 const MESHES: [&str; 3] = ["triangles", "quads", "polygons"];
 
 type Item<'a, 'i> = (&'a str, Range<usize>, &'a Spanned<DeValue<'i>>);
@@ -76,11 +84,21 @@ impl Scheme {
     /// # Errors
     /// Why it can't be set, in words.
     pub fn set(&mut self, name: &str, given: &str) -> Result<(), String> {
-        let known: Vec<String> = self.book.parameters.iter().map(|p| p.name.clone()).collect();
-        let Some(parameter) = self.book.parameters.iter_mut().find(|p| p.name == name) else {
+        self.book.set(name, given)
+    }
+}
+
+impl RuleBook {
+    /// Sets a parameter of this file.
+    ///
+    /// # Errors
+    /// Why it can't be set, in words.
+    pub fn set(&mut self, name: &str, given: &str) -> Result<(), String> {
+        let known: Vec<String> = self.parameters.iter().map(|p| p.name.clone()).collect();
+        let Some(parameter) = self.parameters.iter_mut().find(|p| p.name == name) else {
             return Err(match known.as_slice() {
-                [] => format!("{} has no parameters, so `{name}` can't be set", self.book.title),
-                _ => format!("{} has no parameter `{name}`; it has {}", self.book.title, known.join(", ")),
+                [] => format!("{} has no parameters, so `{name}` can't be set", self.title),
+                _ => format!("{} has no parameter `{name}`; it has {}", self.title, known.join(", ")),
             });
         };
         let formula = Formula::parse(given).map_err(|fault| format!("`{name}={given}`: {}", fault.message))?;
@@ -89,12 +107,10 @@ impl Scheme {
         }
         let value = Placed { formula, span: parameter.span.clone(), start: None };
         parameter.value = value.clone();
-        let evaluated = self.book.evaluate::<f64>(&value, &Place::at(None, 0));
+        let evaluated = self.evaluate::<f64>(&value, &Place::at(None, 0));
         evaluated.map(|_| ()).map_err(|fault| format!("`{name}={given}`: {}", fault.message))
     }
-}
 
-impl RuleBook {
     /// Reads a boundary file for one kind of mesh.
     ///
     /// # Errors
@@ -154,9 +170,7 @@ impl<'t> Reader<'t> {
         let boundary = self.words(&items, "boundary");
         for (name, span) in &boundary {
             if !catalogue::BOUNDARIES.iter().any(|listed| listed.id == name) {
-                let names: Vec<&str> = catalogue::BOUNDARIES.iter().map(|listed| listed.id).collect();
-                let fault = Fault::at(span.clone(), format!("there is no boundary file `{name}`"), "unknown");
-                self.faults.push(fault.hint(format!("the boundary files are {}", names.join(", "))));
+                self.no_boundary_file(name, span.clone());
             }
         }
         let mut book = self.book(&items, origin, mesh.as_deref(), false)?;
@@ -175,8 +189,35 @@ impl<'t> Reader<'t> {
 
     fn boundary(&mut self, origin: &str, mesh: &str) -> Option<RuleBook> {
         let top = self.top()?;
-        let items = self.items(top.get_ref(), &BOUNDARY_KEYS, "a boundary file");
-        self.book(&items, origin, Some(mesh), true)
+        let mut items = self.items(top.get_ref(), &BOUNDARY_KEYS, "a boundary file");
+        let on_mesh = if mesh == "triangles" { ON_TRIANGLES } else { ON_QUADS };
+        if let Some((value, span)) = self.find(&items, on_mesh) {
+            match value {
+                DeValue::Table(table) => items.extend(self.items(table, &["vertex", "edge"], "rules for one mesh")),
+                _ => self.wrong_type(&span, "a table of rules", value),
+            }
+        }
+        let like = self.like(&items, mesh);
+        let book = self.book(&items, origin, Some(mesh), true)?;
+        Some(RuleBook { like, ..book })
+    }
+
+    /// The boundary file of the catalogue that another one is like.
+    fn like(&mut self, items: &[Item], mesh: &str) -> Option<Box<RuleBook>> {
+        let (value, span) = self.find(items, "like")?;
+        let name = self.string(value, &span)?;
+        match catalogue::boundary(&name, mesh) {
+            Some(Ok(book)) => return Some(Box::new(book)),
+            Some(Err(_)) => self.faults.push(Fault::at(span, format!("the boundary file `{name}` has faults"), "")),
+            None => self.no_boundary_file(&name, span),
+        }
+        None
+    }
+
+    fn no_boundary_file(&mut self, name: &str, span: Range<usize>) {
+        let names: Vec<&str> = catalogue::BOUNDARIES.iter().map(|listed| listed.id).collect();
+        let fault = Fault::at(span, format!("there is no boundary file `{name}`"), "unknown");
+        self.faults.push(fault.hint(format!("the boundary files are {}", names.join(", "))));
     }
 
     fn book(&mut self, items: &[Item], origin: &str, mesh: Option<&str>, boundary: bool) -> Option<RuleBook> {
@@ -202,6 +243,7 @@ impl<'t> Reader<'t> {
                 Some("quads") => Some(4),
                 _ => None,
             },
+            like: None,
         };
         book.rules = self.rules(&book, items, mesh, boundary);
         Some(book)

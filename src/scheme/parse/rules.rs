@@ -114,7 +114,7 @@ impl Reader<'_> {
     ) -> Option<(&'a str, Option<Vec<Pick>>)> {
         let Some((name, rest)) = key.split_once('[') else { return Some((key.trim(), None)) };
         let pick = |word: &str| match word.trim() {
-            "k" if kind.variable() == Some("k") => Some(Pick::K),
+            "k" if kind == RuleKind::VertexCrease => Some(Pick::K),
             word => word.parse().ok().filter(|index: &i64| index.abs() <= 1_000_000).map(Pick::Index),
         };
         let picks = rest.trim_end().strip_suffix(']').map(|list| list.split(',').map(pick).collect::<Option<Vec<_>>>());
