@@ -1,0 +1,326 @@
+//! Is what the symbol says of regular meshes what the literature says, and what the rows of the mesh engine do?
+#![allow(clippy::unwrap_used)]
+
+use dashu_ratio::RBig;
+use eigenring::analysis::Analyzer;
+use eigenring::analysis::regular::mask::{Dilation, Mask, Point, Sequence};
+use eigenring::analysis::regular::{Regular, Smoothness};
+use eigenring::numbers::{Field, Free};
+use eigenring::refine::{Refinement, RegularStencils, lattice_of};
+use eigenring::report::{Study, csv, json, latex, markdown};
+use eigenring::scheme::{Scheme, catalogue};
+use eigenring::verdicts::{Decision, verdicts};
+
+fn open(id: &str) -> Scheme {
+    catalogue::open(id).unwrap().unwrap()
+}
+
+fn parse(text: &str) -> Scheme {
+    Scheme::parse("own", "own.toml", text).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+fn regular(scheme: &Scheme) -> Regular {
+    Regular::of(scheme).unwrap()
+}
+
+fn rational(above: i64, below: i64) -> Free {
+    Free::rational(&(RBig::from(above) / RBig::from(below)))
+}
+
+/// The eight-point butterfly scheme of Dyn, Levin and Gregory with its tension.
+const BUTTERFLY: &str = r#"
+name  = "Butterfly"
+mesh  = "triangles"
+split = "1-to-4"
+[parameters]
+w = "1/16"
+[vertex]
+centre = "1"
+[edge]
+ends     = "1/2"
+opposite = "2*w"
+wings    = "-w"
+"#;
+
+/// Midpoints and nothing else: piecewise linear.
+const LINEAR: &str = r#"
+name  = "Linear"
+mesh  = "triangles"
+split = "1-to-4"
+[vertex]
+centre = "1"
+[edge]
+ends = "1/2"
+"#;
+
+/// The same on quads.
+const BILINEAR: &str = r#"
+name  = "Bilinear"
+mesh  = "quads"
+split = "1-to-n"
+[vertex]
+centre = "1"
+[edge]
+ends = "1/2"
+[face]
+corners = "1/4"
+"#;
+
+/// Corners cut by 1/2, 1/4, 1/4: two steps of the simplest scheme, which make the Zwart-Powell element (Peters and Reif 1997).
+const TWO_MIDEDGE_STEPS: &str = r#"
+name  = "Two mid-edge steps"
+mesh  = "quads"
+split = "dual"
+[corner]
+itself       = "1/2"
+"ring[-1,1]" = "1/4"
+"#;
+
+/// Loop 1987; Catmull and Clark 1978; Doo and Sabin 1978: the splines that they generalise. The degrees: Dyn 1992, Charina, Conti, Jetter and
+/// Zimmermann 2011 (B-splines and box splines reproduce linear functions and generate more).
+#[test]
+fn the_schemes_are_the_splines_that_they_generalise() {
+    for id in ["loop", "loop-warren"] {
+        let loops = regular(&open(id));
+        assert_eq!(loops.factors.directions, [([1, 0], 2), ([0, 1], 2), ([1, -1], 2)]);
+        let spline = loops.spline.clone().unwrap();
+        assert_eq!((spline.degree(), spline.continuity(), spline.is_independent()), (4, Some(2), true));
+        assert_eq!((loops.generation(), loops.moments.reproduction, loops.moments.sum_rules), (Some(3), Some(1), 4));
+        assert!(matches!(loops.smoothness, Smoothness::Exactly(2, ..)));
+    }
+    for (id, degree, half) in [("catmull-clark", 3, 0), ("doo-sabin", 2, 1), ("catmull-clark-biquadratic", 2, 1)] {
+        let tensor = regular(&open(id));
+        assert_eq!(tensor.spline.clone().unwrap().bidegree(), Some([degree, degree]), "{id}");
+        assert_eq!((tensor.generation(), tensor.moments.reproduction), (Some(degree), Some(1)), "{id}");
+        assert_eq!(tensor.moments.shift, [rational(half, 2), rational(half, 2)], "{id}");
+        assert!(matches!(tensor.smoothness, Smoothness::Exactly(r, ..) if r == degree - 1), "{id}");
+    }
+}
+
+/// The submasks of the bicubic and biquadratic spline, by outer products of (1, 4, 6, 4, 1)/8 and (1, 3, 3, 1)/4.
+#[test]
+fn tensor_product_masks_are_outer_products() {
+    for (id, mask, over, first) in [("catmull-clark", &[1, 4, 6, 4, 1][..], 8, -2), ("doo-sabin", &[1, 3, 3, 1], 4, -1)]
+    {
+        let own = regular(&open(id)).mask.coefficients;
+        assert_eq!(own.len(), mask.len() * mask.len());
+        for (i, a) in mask.iter().enumerate() {
+            for (j, b) in mask.iter().enumerate() {
+                assert_eq!(own[&[first + i as i32, first + j as i32]], rational(a * b, over * over), "{id} {i} {j}");
+            }
+        }
+    }
+}
+
+#[test]
+fn splines_that_are_not_smooth() {
+    let linear = regular(&parse(LINEAR));
+    assert_eq!(linear.factors.directions, [([1, 0], 1), ([0, 1], 1), ([1, -1], 1)]);
+    assert!(linear.spline.as_ref().unwrap().name().contains("Courant"));
+    assert!(matches!(linear.smoothness, Smoothness::Exactly(0, ..)));
+    assert_eq!((linear.moments.sum_rules, linear.moments.reproduction), (2, Some(1)));
+    let bilinear = regular(&parse(BILINEAR));
+    assert_eq!(bilinear.spline.as_ref().unwrap().bidegree(), Some([1, 1]));
+    assert!(matches!(bilinear.smoothness, Smoothness::Exactly(0, ..)));
+}
+
+/// Quadratic and C1 with all quadratic polynomials, though its shifts are dependent and its sum rules are of order 2 only (de Boor, Hollig and
+/// Riemenschneider 1993).
+#[test]
+fn the_zwart_powell_element_is_seen() {
+    let element = regular(&parse(TWO_MIDEDGE_STEPS));
+    assert_eq!(element.factors.directions, [([1, 0], 1), ([0, 1], 1), ([1, 1], 1), ([1, -1], 1)]);
+    let spline = element.spline.clone().unwrap();
+    assert!(spline.name().contains("Zwart-Powell") && !spline.is_independent());
+    assert_eq!((element.moments.sum_rules, element.generation(), element.moments.reproduction), (2, Some(2), Some(1)));
+    assert!(matches!(element.smoothness, Smoothness::Exactly(1, ..)));
+}
+
+/// Dyn, Levin and Gregory 1990: the symbol has the three factors once each, for every tension; cubic polynomials are reproduced at 1/16 only; limits
+/// are C1 at 1/16, which the difference schemes of divided differences show in two steps; not C2.
+#[test]
+fn the_butterfly_scheme() {
+    let mut scheme = parse(BUTTERFLY);
+    let fixed = regular(&scheme);
+    let three = [([1, 0], 1), ([0, 1], 1), ([1, -1], 1)];
+    assert_eq!((&fixed.factors.directions[..], fixed.spline.is_some()), (&three[..], false));
+    assert_eq!((fixed.moments.sum_rules, fixed.moments.reproduction), (4, Some(3)));
+    let Smoothness::AtLeast(1, proof) = &fixed.smoothness else { panic!("{:?}", fixed.smoothness) };
+    assert!(proof.contractive.iter().all(|(taken, found)| taken.len() == 2 && found.steps == 2));
+    let with_spectrum = Analyzer::new(&scheme).unwrap().regular().unwrap().clone();
+    assert!(matches!(with_spectrum.smoothness, Smoothness::Exactly(1, ..)));
+    scheme.leave_free("w").unwrap();
+    let free = regular(&scheme);
+    assert_eq!(free.factors.directions, three);
+    assert_eq!((free.moments.sum_rules, free.moments.reproduction), (2, Some(1)));
+    assert_eq!(free.smoothness.proved(), None);
+}
+
+/// The ten-point stencil reproduces cubic polynomials for every w (Zorin, Schroder and Sweldens 1996 take it for that), and w = 0 is the butterfly scheme.
+#[test]
+fn the_ten_point_stencil() {
+    let mut scheme = open("modified-butterfly");
+    assert_eq!(regular(&scheme).mask.coefficients, regular(&parse(BUTTERFLY)).mask.coefficients);
+    scheme.leave_free("w").unwrap();
+    let free = regular(&scheme);
+    assert_eq!((free.moments.sum_rules, free.moments.reproduction), (4, Some(3)));
+}
+
+/// With a large tension nothing contracts, and nothing is claimed.
+#[test]
+fn what_does_not_contract_is_undecided() {
+    let rough = regular(&parse(&BUTTERFLY.replace("1/16", "0.13")));
+    assert_eq!((rough.smoothness.is(1), rough.moments.reproduction), (None, Some(1)));
+    let wild = regular(&parse(&BUTTERFLY.replace("1/16", "2")));
+    assert!(matches!(wild.smoothness, Smoothness::Undecided(_)));
+}
+
+/// Samples of the monomial x^a y^b at the points of the lattice, shifted.
+fn sample([x, y]: [f64; 2], (a, b): (i32, i32)) -> f64 {
+    x.powi(a) * y.powi(b)
+}
+
+fn monomials(degree: usize) -> impl Iterator<Item = (i32, i32)> {
+    (0..=degree as i32).map(move |b| (degree as i32 - b, b))
+}
+
+/// By the definition, with the floating stencils of the mesh engine: a step takes samples of polynomials of the degree that is reproduced to samples of
+/// the same polynomial on the finer lattice, and not those of one degree more; it takes polynomials below the order of the sum rules to polynomials of no higher
+/// degree (differences of one order more vanish), and not those of that order.
+#[test]
+fn degrees_are_those_of_the_definition() {
+    let own = [BUTTERFLY, LINEAR, BILINEAR, TWO_MIDEDGE_STEPS].map(parse);
+    let all = catalogue::SCHEMES.iter().map(|listed| open(listed.id)).chain(own);
+    for scheme in all {
+        let id = scheme.book.title.clone();
+        let regular = regular(&scheme);
+        let stencils = RegularStencils::of(&Refinement::new(&scheme, None), lattice_of(&scheme)).unwrap();
+        let tau = regular.moments.shift.each_ref().map(|own| own.as_rational().unwrap().to_f64().value());
+        let at = |[i, j]: Point| [f64::from(i) + tau[0], f64::from(j) + tau[1]];
+        let refined = |[i, j]: Point, monomial: (i32, i32)| -> f64 {
+            let old = |(di, dj): (i32, i32)| at([i.div_euclid(2) + di, j.div_euclid(2) + dj]);
+            stencils.at(i, j).iter().map(|(offset, weight)| weight * sample(old(*offset), monomial)).sum()
+        };
+        let points = || (-4..5).flat_map(|i| (-4..5).map(move |j| [i, j]));
+        let reproduces = |degree: usize| {
+            monomials(degree).all(|monomial| {
+                points().all(|new| {
+                    let [x, y] = at(new);
+                    (refined(new, monomial) - sample([x / 2.0, y / 2.0], monomial)).abs() < 1e-9
+                })
+            })
+        };
+        let reproduced = regular.moments.reproduction.unwrap();
+        assert!((0..=reproduced).all(reproduces) && !reproduces(reproduced + 1), "{id}");
+        // the differences of order d + 1 along both axes and mixed
+        let difference = |new: Point, monomial: (i32, i32), (a, b): (i32, i32)| -> f64 {
+            let sign = |step: i32| if step % 2 == 0 { 1.0 } else { -1.0 };
+            let binomial = |n: i32, k: i32| (0..k).map(|i| f64::from(n - i) / f64::from(i + 1)).product::<f64>();
+            let term = |s: i32, t: i32| {
+                let value = refined([new[0] + s, new[1] + t], monomial);
+                sign(s + t) * binomial(a, s) * binomial(b, t) * value
+            };
+            (0..=a).flat_map(|s| (0..=b).map(move |t| (s, t))).map(|(s, t)| term(s, t)).sum()
+        };
+        let stays = |degree: usize| {
+            monomials(degree).all(|monomial| {
+                monomials(degree + 1).all(|order| points().all(|new| difference(new, monomial, order).abs() < 1e-7))
+            })
+        };
+        let order = regular.moments.sum_rules;
+        assert!((0..order).all(stays) && !stays(order), "{id}: order {order}");
+    }
+}
+
+/// The product of a symbol's factors and kernel is the symbol.
+#[test]
+fn factors_multiply_to_the_symbol() {
+    for scheme in catalogue::SCHEMES.iter().map(|listed| open(listed.id)).chain([parse(BUTTERFLY)]) {
+        let regular = regular(&scheme);
+        let mut product: Sequence = regular.factors.kernel.clone();
+        for (v, times) in &regular.factors.directions {
+            for _ in 0..*times {
+                let mut next = Sequence::new();
+                for (point, weight) in &product {
+                    for step in 0..2 {
+                        let place = [point[0] + step * v[0], point[1] + step * v[1]];
+                        let sum = next.get(&place).map_or(weight.clone(), |own: &Free| own.plus(weight).unwrap());
+                        next.insert(place, sum);
+                    }
+                }
+                next.retain(|_, weight| !weight.is_certainly_zero());
+                product = next;
+            }
+        }
+        assert_eq!(product, regular.mask.coefficients, "{}", scheme.id);
+    }
+}
+
+/// Ternary B-splines: the univariate symbol of degree d is ((1 + z + z^2)/3)^(d+1) times 3.
+#[test]
+fn ternary_b_splines() {
+    for degree in 1..=4_usize {
+        let mut line = vec![1_i64];
+        for _ in 0..=degree {
+            let at = |i: usize| if i < line.len() { line[i] } else { 0 };
+            line = (0..line.len() + 2)
+                .map(|i| at(i) + if i > 0 { at(i - 1) } else { 0 } + if i > 1 { at(i - 2) } else { 0 })
+                .collect();
+        }
+        let over = 3_i64.pow(2 * degree as u32);
+        let coefficient = |i: usize, j: usize| ([i as i32, j as i32], rational(line[i] * line[j], over));
+        let all = (0..line.len()).flat_map(|i| (0..line.len()).map(move |j| (i, j)));
+        let mask = Mask::new(Dilation::whole(3), all.map(|(i, j)| coefficient(i, j)));
+        let regular = Regular::of_mask(mask).unwrap();
+        assert_eq!(regular.spline.clone().unwrap().bidegree(), Some([degree, degree]));
+        assert_eq!((regular.moments.sum_rules, regular.moments.reproduction), (degree + 1, Some(1)));
+        assert!(matches!(regular.smoothness, Smoothness::Exactly(r, ..) if r == degree - 1));
+    }
+}
+
+/// Difference schemes alone, without the theorem on box splines, show the smoothness of B-splines of degrees up to 4.
+#[test]
+fn difference_schemes_show_what_splines_are() {
+    use eigenring::analysis::regular::differences::Differences;
+    for (id, smooth) in [("loop", 2), ("catmull-clark", 2), ("doo-sabin", 1)] {
+        let regular = regular(&open(id));
+        let mut differences = Differences::of(&regular.mask, &regular.factors).unwrap();
+        assert!((0..=smooth).all(|k| differences.prove(k).unwrap().is_some()), "{id}");
+        assert!(differences.prove(smooth + 1).unwrap().is_none(), "{id}: too smooth");
+    }
+}
+
+/// The condition on regular meshes is decided by the symbol, and JSON, Markdown and LaTeX tell the regular part.
+#[test]
+fn verdicts_and_reports_tell_the_regular_part() {
+    for (scheme, expected) in [
+        (open("loop"), Decision::Proved),
+        (open("modified-butterfly"), Decision::Proved),
+        (parse(LINEAR), Decision::Refuted),
+        (parse(&BUTTERFLY.replace("1/16", "0.13")), Decision::Undecided),
+    ] {
+        let analysis = Analyzer::new(&scheme).unwrap().at(5).unwrap();
+        let found = verdicts(&analysis, &[]);
+        let own = found.iter().find(|verdict| verdict.claim == "regular part").unwrap();
+        assert_eq!(own.verdict, expected, "{}", scheme.book.title);
+    }
+    let report = Study::of(&open("loop"), &[5], false, &|| ()).unwrap().report;
+    let document: serde_json::Value = serde_json::from_str(&json(&report).unwrap()).unwrap();
+    let own = &document["regular"];
+    assert_eq!(own["symbol"], "1/16*z1^-2*z2^-2*(1 + z1)^2*(1 + z2)^2*(z1 + z2)^2");
+    assert_eq!((&own["sum_rules"], &own["reproduction_degree"]), (&4.into(), &1.into()));
+    assert_eq!((&own["smoothness"]["continuity"], &own["smoothness"]["sharp"]), (&2.into(), &true.into()));
+    assert_eq!(own["kernel"], "1");
+    let text = markdown(&report, &[]);
+    assert!(text.contains("## Regular part") && text.contains("quartic box spline of three directions (2, 2, 2)"));
+    assert!(latex(&report, &[]).contains("(1 + z_1)^{2}") && csv(&report).contains("limit mask"));
+}
+
+/// Weights that are no rational numbers on regular meshes: the report says so and does without.
+#[test]
+fn irrational_weights_have_no_regular_part() {
+    let text = LINEAR.replace("ends = \"1/2\"", "ends = \"1/2 - sqrt(2)/8\"\nopposite = \"sqrt(2)/8\"");
+    let report = Study::of(&parse(&text), &[5], false, &|| ()).unwrap().report;
+    assert!(report.regular.is_none() && report.why_no_regular.is_some());
+    assert!(markdown(&report, &[]).contains("The regular part is not told"));
+}
