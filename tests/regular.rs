@@ -256,26 +256,95 @@ fn factors_multiply_to_the_symbol() {
     }
 }
 
-/// Ternary B-splines: the univariate symbol of degree d is ((1 + z + z^2)/3)^(d+1) times 3.
+/// A mask of a curve from whole numbers over one denominator.
+fn line(first: i32, numbers: &[i64], over: i64) -> Vec<(i32, Free)> {
+    numbers.iter().enumerate().map(|(i, number)| (first + i as i32, rational(*number, over))).collect()
+}
+
+/// Ternary B-splines: the univariate symbol of degree d is 3 ((1 + z + z^2)/3)^(d+1).
 #[test]
 fn ternary_b_splines() {
+    let mut numbers = vec![1, 1, 1];
     for degree in 1..=4_usize {
-        let mut line = vec![1_i64];
-        for _ in 0..=degree {
-            let at = |i: usize| if i < line.len() { line[i] } else { 0 };
-            line = (0..line.len() + 2)
-                .map(|i| at(i) + if i > 0 { at(i - 1) } else { 0 } + if i > 1 { at(i - 2) } else { 0 })
-                .collect();
-        }
-        let over = 3_i64.pow(2 * degree as u32);
-        let coefficient = |i: usize, j: usize| ([i as i32, j as i32], rational(line[i] * line[j], over));
-        let all = (0..line.len()).flat_map(|i| (0..line.len()).map(move |j| (i, j)));
-        let mask = Mask::new(Dilation::whole(3), all.map(|(i, j)| coefficient(i, j)));
-        let regular = Regular::of_mask(mask).unwrap();
+        let at = |i: usize| numbers.get(i).copied().unwrap_or(0);
+        let sum = |i: usize| (i.saturating_sub(2)..=i).map(at).sum::<i64>();
+        numbers = (0..numbers.len() + 2).map(sum).collect();
+        let own = line(0, &numbers, 3_i64.pow(degree as u32));
+        let regular = Regular::of_mask(Mask::tensor(3, &own, &own).unwrap()).unwrap();
         assert_eq!(regular.spline.clone().unwrap().bidegree(), Some([degree, degree]));
         assert_eq!((regular.moments.sum_rules, regular.moments.reproduction), (degree + 1, Some(1)));
         assert!(matches!(regular.smoothness, Smoothness::Exactly(r, ..) if r == degree - 1));
     }
+}
+
+/// Tensor products of the four-point scheme (Dyn, Gregory and Levin 1987; on quads with irregular vertices Kobbelt 1996): cubic polynomials are
+/// reproduced, limits are C1. With another scheme along the second axis the weaker of both counts.
+#[test]
+fn tensor_products_of_curves() {
+    let four_point = line(-3, &[-1, 0, 9, 16, 9, 0, -1], 16);
+    let regular = Regular::of_mask(Mask::tensor(2, &four_point, &four_point).unwrap()).unwrap();
+    assert_eq!((regular.moments.sum_rules, regular.moments.reproduction), (4, Some(3)));
+    assert_eq!(regular.factors.directions, [([1, 0], 4), ([0, 1], 4)]);
+    assert!(matches!(regular.smoothness, Smoothness::AtLeast(1, _)));
+    let chaikin = line(-1, &[1, 3, 3, 1], 4);
+    let mixed = Regular::of_mask(Mask::tensor(2, &four_point, &chaikin).unwrap()).unwrap();
+    assert_eq!((mixed.moments.sum_rules, mixed.moments.reproduction), (3, Some(1)));
+    assert_eq!(mixed.moments.shift, [rational(0, 1), rational(1, 2)]);
+    assert!(matches!(mixed.smoothness, Smoothness::AtLeast(1, _)));
+}
+
+/// Without any smoothing factor: a Loop relative with points two edges away. C1 by the differences of all directions.
+#[test]
+fn a_scheme_without_factors() {
+    let text = r#"
+name  = "Odd"
+mesh  = "triangles"
+split = "1-to-4"
+[vertex]
+centre = "1 - n/17 - n/200"
+ring   = "1/17"
+"2,0"  = "1/200"
+[edge]
+ends     = "1/2 - 1/7"
+opposite = "1/7"
+"#;
+    let odd = regular(&parse(text));
+    assert!(odd.factors.directions.is_empty() && odd.spline.is_none());
+    let Smoothness::AtLeast(1, proof) = &odd.smoothness else { panic!("{:?}", odd.smoothness) };
+    assert!(proof.contractive.is_empty() && proof.all.as_ref().is_some_and(|(order, _)| *order == 2));
+}
+
+/// One step of the simplest scheme: midpoints of edges, on a lattice turned by 45 degrees. Two steps have 2 I but for a turn, and are the Zwart-Powell
+/// element (Peters and Reif 1997), as the corner cutting above.
+#[test]
+fn one_mid_edge_step() {
+    let half = rational(1, 2);
+    // the old points with even coordinate sums, halved; their edges' midpoints: each is made of two neighbours
+    let turned = Dilation::new([[1, -1], [1, 1]]).unwrap();
+    let mask = Mask::new(turned, [[0, 0], [1, 0], [0, 1], [1, 1]].map(|point| (point, half.clone())));
+    let element = Regular::of_mask(mask).unwrap();
+    assert_eq!(element.straight.as_ref().map(|(mask, steps)| (mask.dilation, *steps)), Some((Dilation::whole(2), 2)));
+    assert!(element.spline.as_ref().unwrap().name().contains("Zwart-Powell"));
+    assert!(matches!(element.smoothness, Smoothness::Exactly(1, ..)));
+    assert_eq!(element.moments.reproduction, Some(1));
+}
+
+/// Kobbelt's sqrt(3) scheme on regular meshes: vertex 2/3 and 1/18 for each neighbour, face 1/3 for each corner. Sum rules of
+/// order 3: on either coset the second moments are those of a circle, 1 in all by Euclid's measure, while the third ones of a triangle are not 0.
+#[test]
+fn the_sqrt3_scheme() {
+    let dilation = Dilation::new([[1, -1], [1, 2]]).unwrap();
+    let ring: [Point; 6] = [[1, 0], [0, 1], [-1, 1], [-1, 0], [0, -1], [1, -1]];
+    let outer = ring.map(|point| (dilation.image(point), rational(1, 18)));
+    let coefficients =
+        ring.map(|point| (point, rational(1, 3))).into_iter().chain(outer).chain([([0, 0], rational(2, 3))]);
+    let regular = Regular::of_mask(Mask::new(dilation, coefficients)).unwrap();
+    assert_eq!((regular.moments.sum_rules, regular.moments.reproduction), (3, Some(1)));
+    assert_eq!(regular.straight.as_ref().map(|(mask, steps)| (mask.dilation, *steps)), Some((Dilation::whole(3), 2)));
+    assert!(regular.spline.is_none() && regular.factors.directions.is_empty());
+    // C2: Kobbelt 2000
+    let Smoothness::AtLeast(2, proof) = &regular.smoothness else { panic!("{:?}", regular.smoothness) };
+    assert_eq!(proof.all.as_ref().map(|(order, found)| (*order, found.steps)), Some((3, 2)));
 }
 
 /// Difference schemes alone, without the theorem on box splines, show the smoothness of B-splines of degrees up to 4.

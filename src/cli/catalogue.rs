@@ -3,7 +3,7 @@
 use super::open::open;
 use super::{Failure, failure, print};
 use clap::Args;
-use eigenring::analysis::regular::Regular;
+use eigenring::analysis::Analyzer;
 use eigenring::report::regular::{RegularReport, regular_report};
 use eigenring::report::write_whole;
 use eigenring::scheme::{Scheme, catalogue};
@@ -60,12 +60,13 @@ fn listing() -> Result<String, Failure> {
 /// A scheme in a line, its spline and parameters in another.
 fn line(scheme: &Scheme) -> String {
     let class = scheme.classification();
-    let regular = Regular::of(scheme).map(|regular| regular_report(&regular));
+    let analyzer = Analyzer::new(scheme).ok();
+    let regular = analyzer.as_ref().and_then(|analyzer| analyzer.regular().ok()).map(regular_report);
     let smoothness = regular.as_ref().map_or("-".to_string(), RegularReport::smoothness_in_words);
     let claimed = Some(class.claimed()).filter(|words| !words.is_empty()).unwrap_or("-".to_string());
     let (split, kind) = (class.split, class.kind_of_points());
     let mut text = format!("  {:<26} {split:<9} {kind:<14} {smoothness:<15} {claimed}\n", scheme.id);
-    let spline = regular.ok().and_then(|regular| regular.spline).map(|spline| spline.name);
+    let spline = regular.and_then(|regular| regular.spline).map(|spline| spline.name);
     let parameters: Vec<&str> = scheme.book.parameters.iter().map(|p| p.name.as_str()).collect();
     let set = (!parameters.is_empty()).then(|| format!("parameter {}", parameters.join(", ")));
     let more: Vec<String> = [Some(scheme.book.title.clone()), spline, set].into_iter().flatten().collect();

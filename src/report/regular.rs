@@ -6,7 +6,7 @@
 use super::tables::{Cell, Table};
 use crate::analysis::exact::words::{Words, free_in_words};
 use crate::analysis::regular::box_spline::BoxSpline;
-use crate::analysis::regular::differences::Proof;
+use crate::analysis::regular::differences::{Contraction, Proof};
 use crate::analysis::regular::factors::Factors;
 use crate::analysis::regular::mask::{Mask, Point, Sequence, bounds};
 use crate::analysis::regular::{Regular, Smoothness};
@@ -28,6 +28,8 @@ pub struct RegularReport {
     pub mask: RegularMaskReport,
     /// The symbol as a product, in z1 and z2.
     pub symbol: String,
+    /// The symbol is that of so many steps at once, whose dilation matrix is m I.
+    pub steps: u32,
     /// The stencil of each kind of new points.
     pub submasks: Vec<SubmaskReport>,
     /// The order of the sum rules.
@@ -119,12 +121,17 @@ pub struct SmoothnessReport {
 /// A contractive difference scheme.
 #[derive(Clone, Debug, Serialize)]
 pub struct ContractiveReport {
-    /// The directions whose factors were divided by; the differences are those of divided differences of one order less.
+    /// The directions whose factors were divided by; the differences are those of divided differences of one order less. None where the
+    /// differences are those of all directions.
     pub directions: Vec<Point>,
+    /// The order of the differences.
+    pub order: usize,
     /// After so many steps ...
     pub steps: u32,
-    /// ... the norm is this, below 1.
+    /// ... the norm is this (a decimal that is a little larger, where it is a long fraction) ...
     pub norm: String,
+    /// ... below this, which is what the theorem asks.
+    pub below: String,
 }
 
 /// The regular part of a scheme whose parameters are left free; `None` without parameters, or where there is no such form.
@@ -145,7 +152,8 @@ pub fn regular_report(regular: &Regular) -> RegularReport {
         coset,
         weights: mask.stencil(coset).into_iter().map(|(point, w)| OldPoint { point, weight: written(w) }).collect(),
     };
-    let Product { symbol, kernel } = Product::of(&regular.factors, mask);
+    let (straight, steps) = regular.straight.as_ref().map_or((mask, 1), |(straight, steps)| (straight, *steps));
+    let Product { symbol, kernel } = Product::of(&regular.factors, straight);
     RegularReport {
         free: mask.parameters.clone(),
         dilation: mask.dilation.rows(),
@@ -154,6 +162,7 @@ pub fn regular_report(regular: &Regular) -> RegularReport {
             rows: on_rectangle(&mask.coefficients, &written),
         },
         symbol: symbol.text,
+        steps,
         latex: symbol.latex,
         submasks: mask.dilation.cosets().into_iter().map(submask).collect(),
         sum_rules: regular.moments.sum_rules,
@@ -190,12 +199,15 @@ fn smoothness_report(regular: &Regular) -> SmoothnessReport {
         Smoothness::Undecided(why) => (false, (*why).to_string(), None),
     };
     let contractive = |proof: &Proof| {
-        let own = proof.contractive.iter().map(|(directions, found)| ContractiveReport {
-            directions: directions.clone(),
+        let report = |directions: &[Point], order: usize, found: &Contraction| ContractiveReport {
+            directions: directions.to_vec(),
+            order,
             steps: found.steps,
-            norm: found.norm.to_string(),
-        });
-        own.collect()
+            norm: rounded_up(found),
+            below: found.below.to_string(),
+        };
+        let own = proof.contractive.iter().map(|(directions, found)| report(directions, directions.len(), found));
+        own.chain(proof.all.iter().map(|(order, found)| report(&[], *order, found))).collect()
     };
     let continuity = regular.smoothness.proved();
     SmoothnessReport { continuity, sharp, why, contractive: proof.map_or(vec![], contractive) }
@@ -348,7 +360,11 @@ impl RegularReport {
         let own = self.smoothness.contractive.iter().map(|scheme| {
             let directions: Vec<String> = scheme.directions.iter().map(|v| place(*v)).collect();
             let directions = directions.join(" and ");
-            format!("divided by the factors of {directions}: norm {} after {}", scheme.norm, steps(scheme.steps))
+            let after = format!("norm {} after {}", scheme.norm, steps(scheme.steps));
+            match scheme.directions.is_empty() {
+                true => format!("all differences of order {}: {after}, below {}", scheme.order, scheme.below),
+                false => format!("divided by the factors of {directions}: {after}"),
+            }
         });
         let all: Vec<String> = own.collect();
         if all.is_empty() {
@@ -357,6 +373,13 @@ impl RegularReport {
             format!("{}. {}", self.smoothness.why, all.join("; "))
         }
     }
+}
+
+/// A norm in full, or, where that is long, rounded up to six decimals if it stays below.
+fn rounded_up(found: &Contraction) -> String {
+    let (exact, million) = (found.norm.to_string(), RBig::from(1_000_000));
+    let up = RBig::from((&found.norm * &million).ceil()) / million;
+    if exact.len() <= 12 || up >= found.below { exact } else { format!("{:.6}", up.to_f64().value()) }
 }
 
 fn steps(number: u32) -> String {
@@ -381,7 +404,12 @@ fn rows(report: &RegularReport) -> Vec<Vec<Cell>> {
     if report.symbol.len() <= LONGEST {
         let text = report.symbol.replace('*', " ");
         let latex = Some(format!("$\\displaystyle {}$", report.latex));
-        rows.push(vec!["symbol a(z1, z2)".into(), Cell { text, latex }]);
+        let name = if report.steps == 1 {
+            "symbol a(z1, z2)".to_string()
+        } else {
+            format!("symbol of {} steps", report.steps)
+        };
+        rows.push(vec![name.into(), Cell { text, latex }]);
     }
     let independent = |spline: &SplineReport| match spline.independent {
         true => "its shifts are linearly independent",
@@ -391,7 +419,9 @@ fn rows(report: &RegularReport) -> Vec<Vec<Cell>> {
         rows.push(cell("spline", format!("{}; {}", spline.name, independent(spline))));
     }
     rows.push(cell("sum rules", format!("of order {}", report.sum_rules)));
-    rows.push(cell("polynomials generated", degree(report.generation_degree)));
+    let known = report.spline.is_some() || report.smoothness.continuity.is_some();
+    let generated = degree(report.generation_degree) + if known { "" } else { ", if the scheme converges" };
+    rows.push(cell("polynomials generated", generated));
     rows.push(cell("polynomials reproduced", degree(report.reproduction_degree)));
     let shift = &report.shift;
     rows.push(cell("parameters of the points", format!("lattice + ({}, {})", shift[0], shift[1])));

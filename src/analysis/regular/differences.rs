@@ -24,16 +24,17 @@ pub const MOST_STEPS: u32 = 12;
 /// The most products of numbers for one norm.
 const MOST_PRODUCTS: usize = 1_500_000;
 
-/// A mask of whole numbers over one denominator, on a rectangle.
-struct Grid {
-    width: usize,
-    values: Vec<IBig>,
-    denominator: UBig,
+/// A mask of whole numbers over one denominator, on a rectangle, row by row.
+#[derive(Clone)]
+pub(super) struct Grid {
+    pub(super) width: usize,
+    pub(super) values: Vec<IBig>,
+    pub(super) denominator: UBig,
 }
 
 impl Grid {
     /// `None` where a number isn't rational.
-    fn of(sequence: &Sequence) -> Option<Grid> {
+    pub(super) fn of(sequence: &Sequence) -> Option<Grid> {
         let (low, high) = bounds(sequence)?;
         let width = (high[0] - low[0] + 1) as usize;
         let numbers: Vec<(Point, RBig)> =
@@ -56,7 +57,7 @@ impl Grid {
     }
 
     /// The product b(z) c(z^stretch), one step more for stretch = m^L. `None` beyond the limit of products.
-    fn times_stretched(&self, other: &Grid, stretch: usize) -> Option<Grid> {
+    pub(super) fn times_stretched(&self, other: &Grid, stretch: usize) -> Option<Grid> {
         let taps = other.values.iter().filter(|value| !value.is_zero()).count();
         if self.values.len().checked_mul(taps)? > MOST_PRODUCTS {
             return None;
@@ -94,6 +95,8 @@ pub struct Contraction {
     pub steps: u32,
     /// The norm of the scheme iterated so often.
     pub norm: RBig,
+    /// It is below this.
+    pub below: RBig,
 }
 
 /// The least number of steps after which the norm of a scheme is below 1, up to stated limits.
@@ -105,7 +108,7 @@ fn contraction(sequence: &Sequence, m: i32) -> Option<Contraction> {
     for steps in 1..=MOST_STEPS {
         let norm = iterated.norm(stretch);
         if norm < RBig::ONE {
-            return Some(Contraction { steps, norm });
+            return Some(Contraction { steps, norm, below: RBig::ONE });
         }
         iterated = iterated.times_stretched(&one, stretch)?;
         stretch = stretch.checked_mul(m)?;
@@ -119,6 +122,8 @@ pub struct Proof {
     /// The difference schemes that were shown to be contractive: their directions, with the multiplicities that were divided by, the
     /// last factor being that of the differences.
     pub contractive: Vec<(Vec<Point>, Contraction)>,
+    /// The order of differences in all directions and how they shrink, where the symbol lacks factors.
+    pub all: Option<(usize, Contraction)>,
 }
 
 /// Looks for proofs, each difference scheme once.

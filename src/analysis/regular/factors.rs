@@ -1,8 +1,8 @@
 //! Which smoothing factors does a symbol have?
 //!
 //! For M = m I the factor of a direction v is 1 + z^v + ... + z^((m-1)v): averaging along v. It divides a symbol exactly when the
-//! coefficients of every line along v, as a polynomial in one variable, are divisible by 1 + x + ... + x^(m-1). Its Newton polygon then
-//! has an edge along v, so that directions longer than the mask's extent can't occur: the search is complete. Directions are primitive
+//! coefficients of every line along v, as a polynomial in one variable, are divisible by 1 + x + ... + x^(m-1). The convex hull of the mask
+//! then has an edge along v (Newton's polygon of a product is the sum of those of its factors), so that all directions are found. Directions are primitive
 //! (their coordinates have no common divisor); factors of different directions have none in common.
 
 use super::mask::{Mask, Point, Sequence, add, bounds};
@@ -50,16 +50,38 @@ pub fn cross([a, b]: Point, [c, d]: Point) -> i32 {
     a * d - b * c
 }
 
-/// The primitive directions that fit into a sequence, one of v and -v, shortest first.
+/// The primitive directions of the edges of a sequence's convex hull, one of v and -v, shortest first.
 fn candidates(sequence: &Sequence) -> Vec<Point> {
-    let Some((low, high)) = bounds(sequence) else { return vec![] };
-    let (width, height) = (high[0] - low[0], high[1] - low[1]);
-    let all = (0..=width).flat_map(|x| (-height..=height).map(move |y| [x, y]));
-    let primitive = |[x, y]: &Point| [*x, *y] > [0, 0] && x.unsigned_abs().gcd(y.unsigned_abs()) == 1;
-    let mut candidates: Vec<Point> = all.filter(primitive).collect();
+    let lower: Vec<Point> = chain(sequence.keys().copied());
+    let upper: Vec<Point> = chain(sequence.keys().rev().copied());
+    let edges = [&lower, &upper].into_iter().flat_map(|corners| corners.windows(2));
+    let along = |pair: &[Point]| {
+        let (x, y) = (pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]);
+        let length = x.unsigned_abs().gcd(y.unsigned_abs()) as i32;
+        let v = [x / length, y / length];
+        if v > [0, 0] { v } else { [-v[0], -v[1]] }
+    };
+    let mut candidates: Vec<Point> = edges.map(along).collect();
     // of two that are as long the one with positive coordinates comes first
     candidates.sort_by_key(|[x, y]| (x * x + y * y, *y < 0, *y, -x));
+    candidates.dedup();
     candidates
+}
+
+/// Half of the convex hull of points in order: every corner turns left.
+fn chain(points: impl Iterator<Item = Point>) -> Vec<Point> {
+    let mut corners: Vec<Point> = Vec::new();
+    for point in points {
+        let minus = |[a, b]: Point, [c, d]: Point| [a - c, b - d];
+        while let [.., p, q] = corners[..] {
+            if cross(minus(q, p), minus(point, q)) > 0 {
+                break;
+            }
+            corners.pop();
+        }
+        corners.push(point);
+    }
+    corners
 }
 
 /// The quotient by 1 + z^v + ... + z^((m-1)v), where there is one. v comes after 0 in the order of points, so that the least point

@@ -51,6 +51,20 @@ impl Dilation {
         (a == d && b == 0 && c == 0 && a >= 2).then_some(a)
     }
 
+    /// The matrices m I and R with M = m R and det R = 1 or -1, told by m and R; `None` where M is no such product.
+    pub fn turned(self) -> Option<(i32, Dilation)> {
+        let m = self.determinant().abs().isqrt();
+        let whole = m * m == self.determinant().abs() && self.0.iter().flatten().all(|entry| entry % m == 0);
+        whole.then(|| (m, Dilation(self.0.map(|row| row.map(|entry| entry / m)))))
+    }
+
+    /// M N
+    fn times(self, other: Dilation) -> Dilation {
+        let [[a, b], [c, d]] = other.0;
+        let ([u, v], [x, y]) = (self.image([a, c]), self.image([b, d]));
+        Dilation([[u, x], [v, y]])
+    }
+
     /// M p.
     pub fn image(self, [x, y]: Point) -> Point {
         let [[a, b], [c, d]] = self.0;
@@ -86,6 +100,9 @@ pub struct Mask {
     pub parameters: Vec<String>,
 }
 
+/// The most steps after which a dilation matrix is looked at.
+const MOST_STEPS: u32 = 2;
+
 /// The place that rows are read at, far from every sector's edge; more than twice the longest walk of a rule.
 const FAR: i32 = 64;
 
@@ -113,6 +130,58 @@ impl Mask {
     pub fn new(dilation: Dilation, coefficients: impl IntoIterator<Item = (Point, Free)>) -> Mask {
         let coefficients = coefficients.into_iter().filter(|(_, weight)| !weight.is_certainly_zero()).collect();
         Mask { dilation, coefficients, parameters: vec![] }
+    }
+
+    /// The tensor product of two masks of curves with the same arity m, each by its coefficients.
+    ///
+    /// # Errors
+    /// When the numbers pass a limit of size.
+    pub fn tensor(m: i32, first: &[(i32, Free)], second: &[(i32, Free)]) -> Result<Mask, Trouble> {
+        let pairs = first.iter().flat_map(|(i, a)| second.iter().map(move |(j, b)| Ok(([*i, *j], a.times(b)?))));
+        Ok(Mask::new(Dilation::whole(m), pairs.collect::<Result<Vec<_>, Trouble>>()?))
+    }
+
+    /// The mask of this step after another: a(z) b(z^M), with the dilation matrix M N.
+    ///
+    /// # Errors
+    /// When the numbers pass a limit of size.
+    pub fn after(&self, other: &Mask) -> Result<Mask, Trouble> {
+        let mut product = Sequence::new();
+        for (alpha, a) in &self.coefficients {
+            for (beta, b) in &other.coefficients {
+                let [x, y] = self.dilation.image(*beta);
+                add(&mut product, [alpha[0] + x, alpha[1] + y], &a.times(b)?)?;
+            }
+        }
+        let dilation = self.dilation.times(other.dilation);
+        Ok(Mask { dilation, coefficients: product, parameters: self.parameters.clone() })
+    }
+
+    /// The mask of the least number of steps whose dilation matrix is m R with R of determinant 1 or -1, read with m I, and that number.
+    /// This is the same scheme with the new points named anew, if the mask is the same after R, up to a translation; `None` where it isn't, or no
+    /// such number is found.
+    ///
+    /// # Errors
+    /// When the numbers pass a limit of size.
+    pub fn straightened(&self) -> Result<Option<(Mask, u32)>, Trouble> {
+        let mut iterated = self.clone();
+        for steps in 1..=MOST_STEPS {
+            if let Some((m, turn)) = iterated.dilation.turned().filter(|(m, _)| *m >= 2) {
+                let own = iterated.is_invariant_under(turn);
+                return Ok(own.then(|| (Mask { dilation: Dilation::whole(m), ..iterated }, steps)));
+            }
+            iterated = self.after(&iterated)?;
+        }
+        Ok(None)
+    }
+
+    /// Whether a(R p + t) = a(p) for some t.
+    fn is_invariant_under(&self, turn: Dilation) -> bool {
+        let image: Sequence =
+            self.coefficients.iter().map(|(point, weight)| (turn.image(*point), weight.clone())).collect();
+        let (Some((low, _)), Some((from, _))) = (bounds(&self.coefficients), bounds(&image)) else { return false };
+        let moved = |[x, y]: Point| [x - from[0] + low[0], y - from[1] + low[1]];
+        image.into_iter().map(|(point, weight)| (moved(point), weight)).collect::<Sequence>() == self.coefficients
     }
 
     /// The coefficients on the coset of a representative.

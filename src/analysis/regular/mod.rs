@@ -2,8 +2,9 @@
 //!
 //! There it is a mask on a lattice, and its symbol tells, exactly: which polynomials it generates and reproduces ([`moments`]), which
 //! smoothing factors it has ([`factors`]), which box spline or tensor-product B-spline it is, if one ([`box_spline`]), and how smooth limits are
-//! ([`differences`]).
+//! ([`differences`], [`all_differences`]).
 
+pub mod all_differences;
 pub mod box_spline;
 pub mod differences;
 pub mod factors;
@@ -14,7 +15,7 @@ use crate::numbers::Trouble;
 use crate::refine::Obstacle;
 use crate::scheme::Scheme;
 use box_spline::BoxSpline;
-use differences::{Differences, Proof};
+use differences::{Differences, Grid, Proof};
 use factors::Factors;
 use mask::Mask;
 use moments::Moments;
@@ -57,7 +58,10 @@ impl Smoothness {
 pub struct Regular {
     /// The mask.
     pub mask: Mask,
-    /// Its symbol as a product.
+    /// The mask of some steps at once, with a dilation matrix m I, and their number: the mask itself and 1 where that has one; `None` where
+    /// there is none.
+    pub straight: Option<(Mask, u32)>,
+    /// The symbol of these steps as a product.
     pub factors: Factors,
     /// The box spline that it is.
     pub spline: Option<BoxSpline>,
@@ -84,11 +88,13 @@ impl Regular {
     /// # Errors
     /// When the numbers pass a limit of size.
     pub fn of_mask(mask: Mask) -> Result<Regular, Trouble> {
-        let factors = Factors::of(&mask)?;
+        let straight = mask.straightened()?;
+        let scaled = straight.as_ref().map_or(&mask, |(scaled, _)| scaled);
+        let factors = Factors::of(scaled)?;
         let spline = BoxSpline::of(&factors);
         let moments = Moments::of(&mask)?;
-        let smoothness = smoothness(&mask, &factors, spline.as_ref(), &moments)?;
-        Ok(Regular { mask, factors, spline, moments, smoothness })
+        let smoothness = smoothness(scaled, &factors, spline.as_ref(), &moments)?;
+        Ok(Regular { mask, straight, factors, spline, moments, smoothness })
     }
 
     /// The same where some eigenvalue at a regular vertex after 1 and 1/2 is above 1/4 in modulus, or 1/4 has a Jordan block, and the scheme is
@@ -128,19 +134,32 @@ fn smoothness(
         return Ok(Smoothness::NotContinuous("the box spline of its directions is not continuous"));
     }
     let Some(mut differences) = Differences::of(mask, factors) else {
-        return Ok(Smoothness::Undecided("the dilation matrix is no multiple of the identity"));
+        return Ok(Smoothness::Undecided("no number of steps has a multiple of the identity as dilation matrix"));
     };
-    let Some(mut proof) = differences.prove(0)? else {
-        return Ok(Smoothness::Undecided(
-            "no two scalar difference schemes in directions of determinant 1 were shown to be contractive",
-        ));
-    };
-    if let Some(r) = spline.and_then(BoxSpline::continuity) {
-        return Ok(Smoothness::Exactly(r, proof, "the scheme converges to the box spline, which is not smoother"));
+    let mut best = None;
+    for r in 0..=MOST_CONTINUITY {
+        let Some(proof) = differences.prove(r)? else { break };
+        if let Some(r) = spline.and_then(BoxSpline::continuity) {
+            return Ok(Smoothness::Exactly(r, proof, "the scheme converges to the box spline, which is not smoother"));
+        }
+        best = Some((r, proof));
     }
-    let mut r = 0;
-    while let Some(next) = if r < MOST_CONTINUITY { differences.prove(r + 1)? } else { None } {
-        (r, proof) = (r + 1, next);
+    // where factors are missing
+    if best.as_ref().is_none_or(|(r, _)| *r == 0) {
+        best = in_all_directions(mask, moments).or(best);
     }
-    Ok(Smoothness::AtLeast(r, proof))
+    Ok(match best {
+        Some((r, proof)) => Smoothness::AtLeast(r, proof),
+        None => Smoothness::Undecided("no difference schemes were shown to be contractive"),
+    })
+}
+
+/// The largest r that the differences of all directions prove, up to stated limits.
+fn in_all_directions(mask: &Mask, moments: &Moments) -> Option<(usize, Proof)> {
+    let (grid, m) = (Grid::of(&mask.coefficients)?, mask.dilation.arity()?);
+    let proofs = (0..moments.sum_rules.min(MOST_CONTINUITY + 1)).map_while(|r| {
+        let found = all_differences::contraction(&grid, m, r)?;
+        Some((r, Proof { all: Some((r + 1, found)), ..Proof::default() }))
+    });
+    proofs.last()
 }
