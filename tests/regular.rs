@@ -154,6 +154,10 @@ fn the_butterfly_scheme() {
     assert_eq!(free.factors.directions, three);
     assert_eq!((free.moments.sum_rules, free.moments.reproduction), (2, Some(1)));
     assert_eq!(free.smoothness.proved(), None);
+    // the value of the paper is found, and no other
+    let special = eigenring::analysis::regular::special::values_with_more(&free).unwrap();
+    let [(value, there)] = &special[..] else { panic!("{special:?}") };
+    assert_eq!((value.to_string(), &there.mask.coefficients), ("1/16".to_string(), &fixed.mask.coefficients));
 }
 
 /// The ten-point stencil reproduces cubic polynomials for every w (Zorin, Schroder and Sweldens 1996 take it for that), and w = 0 is the butterfly scheme.

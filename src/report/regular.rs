@@ -9,6 +9,7 @@ use crate::analysis::regular::box_spline::BoxSpline;
 use crate::analysis::regular::differences::{Contraction, Proof};
 use crate::analysis::regular::factors::Factors;
 use crate::analysis::regular::mask::{Mask, Point, Sequence, bounds};
+use crate::analysis::regular::special::values_with_more;
 use crate::analysis::regular::{Regular, Smoothness};
 use crate::numbers::{Field, Free, MOST_PARAMETERS};
 use crate::scheme::Scheme;
@@ -48,12 +49,28 @@ pub struct RegularReport {
     pub spline: Option<SplineReport>,
     /// How smooth limits are.
     pub smoothness: SmoothnessReport,
+    /// Values of the one free parameter at which the order of the sum rules is higher.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub special: Vec<SpecialReport>,
     /// The symbol in LaTeX.
     #[serde(skip)]
     pub latex: String,
     /// The mask over one denominator, for tables; `None` where it has free parameters.
     #[serde(skip)]
     pub over: Option<(Vec<Vec<String>>, String)>,
+}
+
+/// The scheme at a special value of its parameter.
+#[derive(Clone, Debug, Serialize)]
+pub struct SpecialReport {
+    /// The value.
+    pub value: String,
+    /// The order of the sum rules.
+    pub sum_rules: usize,
+    /// The degree of polynomials whose samples are reproduced.
+    pub reproduction_degree: Option<usize>,
+    /// Limits are proved to be C^r for this r.
+    pub continuity: Option<usize>,
 }
 
 /// The coefficients of a mask.
@@ -178,8 +195,19 @@ pub fn regular_report(regular: &Regular) -> RegularReport {
         kernel: kernel.text,
         spline: regular.spline.as_ref().map(spline_report),
         smoothness: smoothness_report(regular),
+        special: special(regular),
         over: over_one_denominator(&mask.coefficients),
     }
+}
+
+fn special(regular: &Regular) -> Vec<SpecialReport> {
+    let report = |(value, own): (RBig, Regular)| SpecialReport {
+        value: value.to_string(),
+        sum_rules: own.moments.sum_rules,
+        reproduction_degree: own.moments.reproduction,
+        continuity: own.smoothness.proved(),
+    };
+    values_with_more(regular).unwrap_or_default().into_iter().map(report).collect()
 }
 
 fn spline_report(spline: &BoxSpline) -> SplineReport {
@@ -305,7 +333,7 @@ fn polynomial(sequence: &Sequence, parameters: &[String]) -> Words {
     let mut terms: Vec<_> = sequence.iter().collect();
     terms.sort_by_key(|([x, y], _)| (x + y, -x));
     for (point, value) in terms {
-        let negative = value.as_rational().is_some_and(|value| value < RBig::ZERO);
+        let negative = free_in_words(value, parameters).text.starts_with('-');
         let modulus = if negative { value.negated() } else { value.clone() };
         let term = term(&modulus, &monomial(*point), parameters);
         let sign = match (sum.text.is_empty(), negative) {
@@ -356,7 +384,8 @@ impl RegularReport {
         }
     }
 
-    fn proof_in_words(&self) -> String {
+    /// The norms of the difference schemes.
+    fn norms(&self) -> String {
         let own = self.smoothness.contractive.iter().map(|scheme| {
             let directions: Vec<String> = scheme.directions.iter().map(|v| place(*v)).collect();
             let directions = directions.join(" and ");
@@ -366,12 +395,7 @@ impl RegularReport {
                 false => format!("divided by the factors of {directions}: {after}"),
             }
         });
-        let all: Vec<String> = own.collect();
-        if all.is_empty() {
-            self.smoothness.why.clone()
-        } else {
-            format!("{}. {}", self.smoothness.why, all.join("; "))
-        }
+        own.collect::<Vec<_>>().join("; ")
     }
 }
 
@@ -425,7 +449,17 @@ fn rows(report: &RegularReport) -> Vec<Vec<Cell>> {
     rows.push(cell("polynomials reproduced", degree(report.reproduction_degree)));
     let shift = &report.shift;
     rows.push(cell("parameters of the points", format!("lattice + ({}, {})", shift[0], shift[1])));
-    rows.push(cell("smoothness", format!("{}; {}", report.smoothness_in_words(), report.proof_in_words())));
+    for own in &report.special {
+        let smooth = own.continuity.map_or(String::new(), |r| format!(", limits at least C{r}"));
+        let reproduced = degree(own.reproduction_degree);
+        let what = format!("sum rules of order {}, polynomials reproduced {reproduced}{smooth}", own.sum_rules);
+        rows.push(cell(&format!("{} = {}", report.free.join(""), own.value), what));
+    }
+    rows.push(cell("smoothness", report.smoothness_in_words()));
+    rows.push(cell("by", report.smoothness.why.clone()));
+    if !report.smoothness.contractive.is_empty() {
+        rows.push(cell("difference schemes", report.norms()));
+    }
     for submask in report.submasks.iter().filter(|own| report.free.is_empty() && own.weights.len() <= 16) {
         rows.push(cell(&format!("new point {}", place(submask.coset)), stencil(submask)));
     }
@@ -455,8 +489,8 @@ pub(super) fn tables(report: Option<&RegularReport>, free: Option<&RegularReport
     let note = "The scheme on regular meshes, exactly: a new point alpha is made of the old points beta with the weights a(alpha - M beta), and \
                 the symbol is the sum of a(alpha) z^alpha. Coordinates are those of a sector: (1, 0) and (0, 1) are two edges at a vertex, and on triangles \
                 (-1, 1) is the third direction. Sum rules of order k: a step takes polynomials of degree below k to such, and limits include them all. Reproduced are \
-                polynomials whose samples at the parameters of the points give samples of the same polynomial. Smoothness is that of all limits; the norms are those \
-                of difference schemes, whose symbols are divided by smoothing factors.";
+                polynomials whose samples at the parameters of the points give samples of the same polynomial. Smoothness is that of all limits; the \
+                difference schemes have the symbol divided by smoothing factors.";
     let mut tables = vec![Table {
         title: TITLE.to_string(),
         note: note.to_string(),
@@ -470,7 +504,8 @@ pub(super) fn tables(report: Option<&RegularReport>, free: Option<&RegularReport
             title: format!("Regular part for general {names}"),
             note: format!("The same with {names} left free; single values may have more."),
             head: head(["property", "value"]),
-            rows: rows(free).into_iter().filter(|row| row[0].text != "smoothness").collect(),
+            // smoothness is decided at single values only
+            rows: rows(free).into_iter().filter(|row| !["smoothness", "by"].contains(&row[0].text.as_str())).collect(),
         });
     }
     tables

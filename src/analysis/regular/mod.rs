@@ -2,7 +2,7 @@
 //!
 //! There it is a mask on a lattice, and its symbol tells, exactly: which polynomials it generates and reproduces ([`moments`]), which
 //! smoothing factors it has ([`factors`]), which box spline or tensor-product B-spline it is, if one ([`box_spline`]), and how smooth limits are
-//! ([`differences`], [`all_differences`]).
+//! ([`differences`], [`all_differences`]). With a parameter left free it tells the values at which polynomials of higher degree are generated ([`special`]).
 
 pub mod all_differences;
 pub mod box_spline;
@@ -10,6 +10,7 @@ pub mod differences;
 pub mod factors;
 pub mod mask;
 pub mod moments;
+pub mod special;
 
 use crate::numbers::Trouble;
 use crate::refine::Obstacle;
@@ -123,8 +124,8 @@ fn smoothness(
     spline: Option<&BoxSpline>,
     moments: &Moments,
 ) -> Result<Smoothness, Trouble> {
-    if moments.sum_rules == 0 {
-        return Ok(Smoothness::NotContinuous("the submasks have different sums"));
+    if moments.reproduction.is_none() {
+        return Ok(Smoothness::Undecided("the weights of some new points don't sum to 1"));
     }
     if mask.coefficients.values().any(|weight| weight.as_rational().is_none()) {
         return Ok(Smoothness::Undecided("a parameter is free: smoothness is decided at its values only"));

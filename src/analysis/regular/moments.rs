@@ -62,6 +62,13 @@ fn mean(mask: &Mask) -> Result<[Free; 2], Trouble> {
     Ok([x.over(&det)?, y.over(&det)?])
 }
 
+/// The differences of the moments of other cosets from those of the first, for the monomials of a degree.
+pub(super) fn apart(mask: &Mask, degree: usize) -> Result<Vec<Free>, Trouble> {
+    let moments = of_degree(mask, &mean(mask)?, degree)?;
+    let Some((first, others)) = moments.split_first() else { return Ok(vec![]) };
+    others.iter().flat_map(|own| own.iter().zip(first)).map(|(a, b)| a.minus(b)).collect()
+}
+
 /// tau = (M - I)^-1 s.
 fn shift(mask: &Mask, [x, y]: &[Free; 2]) -> Result<[Free; 2], Trouble> {
     let [[a, b], [c, d]] = mask.dilation.rows().map(|row| row.map(i64::from));
