@@ -15,6 +15,7 @@ pub mod masks;
 pub mod neighbourhood;
 pub mod parts;
 pub mod places;
+pub mod regular;
 pub mod spectra;
 pub mod spectrum;
 pub mod verify;
@@ -31,6 +32,7 @@ use local::{LocalMatrix, MAX_VALENCE};
 use masks::Mask;
 use neighbourhood::{Influence, Orbit, closure};
 use num_complex::Complex64;
+use regular::Regular;
 use spectra::Spectra;
 use spectrum::{Eigenvalue, Spectrum};
 use std::cmp::Ordering;
@@ -43,6 +45,7 @@ pub struct Analyzer<'a> {
     stencils: RegularStencils,
     influence: Influence,
     regular: Option<RegularMasks>,
+    regular_meshes: Result<Regular, String>,
     regular_part: RegularPart,
     forms: Result<AllValences, String>,
     exact_regular: Option<ExactAnalysis>,
@@ -116,6 +119,8 @@ pub struct RegularPart {
     pub exactly: Option<bool>,
     /// Whether curvature diverges at regular vertices, exactly.
     pub curvature_diverges: Option<bool>,
+    /// Whether the symbol shows that limits on regular meshes are C1, or that they are not for all data ([`regular`]).
+    pub c1: Option<bool>,
 }
 
 impl<'a> Analyzer<'a> {
@@ -137,6 +142,7 @@ impl<'a> Analyzer<'a> {
             stencils,
             influence,
             regular: None,
+            regular_meshes: Regular::of(&scheme.with_values()).map_err(|obstacle| obstacle.to_string()),
             regular_part,
             forms,
             exact_regular: None,
@@ -151,8 +157,21 @@ impl<'a> Analyzer<'a> {
         let exactly = analyzer.exact_regular.as_ref().and_then(|regular| one_then_twice(regular, dilation));
         let curvature_diverges = analyzer.exact_regular.as_ref().and_then(ExactAnalysis::curvature_diverges);
         let steps = analyzer.steps();
-        analyzer.regular_part =
-            RegularPart { valence, steps, dilation, next_modulus, lambda, rival, exactly, curvature_diverges };
+        analyzer.regular_part = RegularPart {
+            valence,
+            steps,
+            dilation,
+            next_modulus,
+            lambda,
+            rival,
+            exactly,
+            curvature_diverges,
+            c1: None,
+        };
+        if scheme.is_interpolating() && curvature_diverges == Some(true) {
+            analyzer.regular_meshes = analyzer.regular_meshes.map(Regular::not_c2);
+        }
+        analyzer.regular_part.c1 = analyzer.regular_meshes.as_ref().ok().and_then(|regular| regular.smoothness.is(1));
         if let (Some(limit), Some(tangents)) = (&regular.limit_mask, &regular.tangent_masks) {
             analyzer.regular = Some(RegularMasks::of(&regular.local, limit, tangents));
         }
@@ -177,6 +196,11 @@ impl<'a> Analyzer<'a> {
     /// The factor by which these steps shrink the lattice.
     pub fn dilation(&self) -> i32 {
         self.stencils.dilation()
+    }
+
+    /// What the scheme does on regular meshes, at the values of its parameters, or why that isn't told.
+    pub fn regular(&self) -> Result<&Regular, &str> {
+        self.regular_meshes.as_ref().map_err(String::as_str)
     }
 
     /// What holds for all valences at once, or why nothing does.

@@ -62,6 +62,9 @@ fn arithmetic(report: &Report) -> String {
             let _ = write!(text, " At n = {}{more} numbers are {kind}: {why}.", shown.join(", "));
         }
     }
+    if let Some(why) = &report.why_no_regular {
+        let _ = write!(text, " The regular part is not told: {why}.");
+    }
     if let Some(why) = &report.why_no_formulas {
         let _ = write!(text, " There are no closed forms for all n: {why}.");
     }

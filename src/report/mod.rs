@@ -12,6 +12,7 @@ mod markdown;
 pub mod model;
 pub mod plots;
 pub mod ranges;
+pub mod regular;
 mod study;
 pub mod sweep;
 mod tables;

@@ -6,6 +6,7 @@
 use super::boundary::BoundaryReport;
 use super::formulas::{AllValencesReport, all_valences};
 use super::ranges::RangeReport;
+use super::regular::{RegularReport, regular_report, with_parameters_free};
 use super::sweep::Sweep;
 use crate::analysis::exact::words::Words;
 use crate::analysis::exact::{Arithmetic, ExactAnalysis, ExactEigenvalue, ExactWeight, Value};
@@ -40,6 +41,14 @@ pub struct Report {
     pub parameters: BTreeMap<String, String>,
     /// Whose it is.
     pub sources: Vec<Reference>,
+    /// What the scheme does on regular meshes; null where its weights there are no rational numbers.
+    pub regular: Option<RegularReport>,
+    /// Why that is so.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why_no_regular: Option<String>,
+    /// The regular part with parameters left free, where there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub regular_free: Option<RegularReport>,
     /// What holds for every n; null where there are no closed forms in n.
     pub all_valences: Option<AllValencesReport>,
     /// Why there are none.
@@ -73,6 +82,10 @@ pub struct Classification {
     pub interpolating: bool,
     /// The regular valence.
     pub regular_valence: usize,
+    /// Whether new points are linear in the old ones.
+    pub linear: bool,
+    /// What the scheme file claims of smoothness at extraordinary points.
+    pub claimed_smoothness: Option<String>,
 }
 
 /// A work of the bibliography.
@@ -358,6 +371,8 @@ impl Report {
                 dual: !analyzer.lattice().has_centre(),
                 interpolating: scheme.is_interpolating(),
                 regular_valence: scheme.regular_valence(),
+                linear: true,
+                claimed_smoothness: Some(scheme.classification(false).claimed()).filter(|words| !words.is_empty()),
             },
             parameters: scheme
                 .book
@@ -366,6 +381,9 @@ impl Report {
                 .map(|p| (p.name.clone(), p.value.formula.text().to_string()))
                 .collect(),
             sources: keys,
+            regular: analyzer.regular().ok().map(regular_report),
+            why_no_regular: analyzer.regular().err().map(str::to_string),
+            regular_free: with_parameters_free(scheme).as_ref().map(regular_report),
             all_valences: analyzer.forms().ok().map(|forms| all_valences(forms, &names)),
             why_no_formulas: analyzer.forms().err().map(str::to_string),
             valences,

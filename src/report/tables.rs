@@ -94,8 +94,9 @@ impl Table {
 
 /// Every table of a report.
 pub fn tables(report: &Report) -> Vec<Table> {
-    let mut tables: Vec<Table> =
-        report.all_valences.iter().flat_map(|all| [formulas(all), mask_formulas(all)]).collect();
+    let mut tables = super::regular::tables(report.regular.as_ref(), report.regular_free.as_ref());
+    let all: Vec<Table> = report.all_valences.iter().flat_map(|all| [formulas(all), mask_formulas(all)]).collect();
+    tables.extend(all);
     tables.extend([
         weights(report),
         overview(report),

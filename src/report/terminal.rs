@@ -37,6 +37,7 @@ pub fn terminal(report: &Report) -> String {
     );
     text.push_str(&known(report));
     text.push_str(&formulas(report));
+    text.push_str(&report.regular.as_ref().map_or(String::new(), super::regular::terminal));
     for claim in report.claims.iter().filter(|claim| claim.outcome != Outcome::Agrees) {
         let _ = writeln!(
             text,

@@ -7,6 +7,7 @@
 pub mod catalogue;
 mod check;
 mod claim;
+mod classification;
 mod evaluate;
 pub mod formula;
 mod interval;
@@ -17,6 +18,7 @@ pub mod vocabulary;
 pub(crate) use check::class_size;
 pub use check::{RuleSum, SUM_TOLERANCE};
 pub use claim::{Claim, Quantity};
+pub use classification::Classification;
 pub use evaluate::Place;
 pub use interval::Interval;
 pub use parse::{KEYS, MAX_FILE_BYTES};

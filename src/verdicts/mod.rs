@@ -181,7 +181,23 @@ fn regular_part(analysis: &Analysis) -> Verdict {
         None => (seen, evidence),
     };
     let why = [seen, "contractive difference schemes would decide".to_string()];
-    undecided("regular part", states, value, evidence, &why, &["reif-1995", "zorin-2000"])
+    let verdict = undecided("regular part", states, value, evidence, &why, &["reif-1995", "zorin-2000"]);
+    match regular.c1 {
+        Some(holds) => by_symbol(verdict, holds),
+        None => verdict,
+    }
+}
+
+/// The regular part decided by the scheme's symbol.
+fn by_symbol(verdict: Verdict, holds: bool) -> Verdict {
+    let why = if holds { "difference schemes are contractive" } else { "limits are not C1 there for all data" };
+    Verdict {
+        verdict: decided(holds),
+        evidence: says(holds),
+        why: vec![format!("by the symbol, in exact arithmetic: {why}")],
+        source: ["cavaretta-dahmen-micchelli-1991", "dyn-1992"].map(str::to_string).to_vec(),
+        ..verdict
+    }
 }
 
 fn simple_one(analysis: &Analysis) -> Verdict {
