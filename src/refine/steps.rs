@@ -8,7 +8,7 @@ use super::compact::Compact;
 use super::gather::{self, Coordinate, Point};
 use super::{Obstacle, Refinement, Row};
 use crate::mesh::{
-    Connectivity, Faces, HalfEdgeMesh, MAX_CORNERS, NONE, NotAMesh, Numbering, Split, Tags, first_corner,
+    Birth, Connectivity, Faces, HalfEdgeMesh, MAX_CORNERS, NONE, NotAMesh, Numbering, Split, Tags, first_corner,
 };
 use crate::scheme::{RuleBook, Scheme};
 use rayon::prelude::*;
@@ -73,6 +73,8 @@ pub enum NotRefinable {
     Mesh(NotAMesh),
     /// A point that can't be made.
     Obstacle(Obstacle),
+    /// The same because of its surroundings: at a vertex, or at the edge or in the face of these vertices.
+    At(Vec<u32>, Obstacle),
 }
 
 impl fmt::Display for NotRefinable {
@@ -89,6 +91,15 @@ impl fmt::Display for NotRefinable {
             NotRefinable::Split(name) => write!(f, "the split {name} can't be applied to meshes"),
             NotRefinable::Mesh(wrong) => write!(f, "{wrong}"),
             NotRefinable::Obstacle(obstacle) => write!(f, "{obstacle}"),
+            NotRefinable::At(vertices, obstacle) => {
+                let place = match vertices.as_slice() {
+                    [_] => "vertex",
+                    [_, _] => "the edge of vertices",
+                    _ => "the face of vertices",
+                };
+                let names: Vec<String> = vertices.iter().map(u32::to_string).collect();
+                write!(f, "{obstacle}, at {place} {}", names.join(", "))
+            }
         }
     }
 }
@@ -99,6 +110,19 @@ impl From<Obstacle> for NotRefinable {
     fn from(obstacle: Obstacle) -> Self {
         NotRefinable::Obstacle(obstacle)
     }
+}
+
+/// What stands in the way of a point of a mesh; where its surroundings do, with the place.
+fn standing_at(mesh: &HalfEdgeMesh, birth: Birth, obstacle: Obstacle) -> NotRefinable {
+    if !matches!(obstacle, Obstacle::Boundary(_) | Obstacle::Limit(_)) {
+        return obstacle.into();
+    }
+    let at = match birth {
+        Birth::Vertex(h) | Birth::Corner(h) => vec![mesh.origin(h)],
+        Birth::Edge(h) => vec![mesh.origin(h), mesh.target(h)],
+        Birth::Face(h) => mesh.around_face(h).into_iter().map(|h| mesh.origin(h)).collect(),
+    };
+    NotRefinable::At(at, obstacle)
 }
 
 impl From<NotAMesh> for NotRefinable {
@@ -277,8 +301,11 @@ impl<'a> Refiner<'a> {
         self.fits(mesh, tags)?;
         let numbering = Numbering::of(mesh);
         let refinement = Refinement::new(self.scheme, self.boundary);
-        let row = |point| refinement.row_of_birth(mesh, tags, self.split.birth(mesh, &numbering, point));
-        (0..self.split.new_vertices(mesh, &numbering)).map(|point| Ok(row(point)?)).collect()
+        let row = |point| {
+            let birth = self.split.birth(mesh, &numbering, point);
+            refinement.row_of_birth(mesh, tags, birth).map_err(|obstacle| standing_at(mesh, birth, obstacle))
+        };
+        (0..self.split.new_vertices(mesh, &numbering)).map(row).collect()
     }
 
     fn all_by_rows<T: Coordinate>(
@@ -286,14 +313,15 @@ impl<'a> Refiner<'a> {
         level: &Level<T>,
         numbering: &Numbering,
         positions: &mut [Point<T>],
-    ) -> Result<(), Obstacle> {
+    ) -> Result<(), NotRefinable> {
         const RUN: usize = 1024;
         positions.par_chunks_mut(RUN).enumerate().try_for_each_init(
             || Refinement::new(self.scheme, self.boundary),
             |refinement, (run, points)| {
                 points.iter_mut().enumerate().try_for_each(|(at, point)| {
                     let birth = self.split.birth(&level.mesh, numbering, RUN * run + at);
-                    *point = applied(&refinement.row_of_birth(&level.mesh, &level.tags, birth)?, &level.positions);
+                    let row = refinement.row_of_birth(&level.mesh, &level.tags, birth);
+                    *point = applied(&row.map_err(|o| standing_at(&level.mesh, birth, o))?, &level.positions);
                     Ok(())
                 })
             },
@@ -307,18 +335,19 @@ impl<'a> Refiner<'a> {
         numbering: &Numbering,
         points: &[u32],
         positions: &mut [Point<T>],
-    ) -> Result<(), Obstacle> {
+    ) -> Result<(), NotRefinable> {
         let made: Vec<(u32, Point<T>)> = points
             .par_iter()
             .map_init(
                 || Refinement::new(self.scheme, self.boundary),
                 |refinement, point| {
                     let birth = self.split.birth(&level.mesh, numbering, *point as usize);
-                    let row = refinement.row_of_birth(&level.mesh, &level.tags, birth)?;
+                    let row = refinement.row_of_birth(&level.mesh, &level.tags, birth);
+                    let row = row.map_err(|o| standing_at(&level.mesh, birth, o))?;
                     Ok((*point, applied(&row, &level.positions)))
                 },
             )
-            .collect::<Result<_, Obstacle>>()?;
+            .collect::<Result<_, NotRefinable>>()?;
         made.iter().for_each(|(point, position)| positions[*point as usize] = *position);
         Ok(())
     }
