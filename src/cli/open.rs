@@ -51,16 +51,17 @@ pub(crate) fn open_with_rules(
 /// Which boundary files are asked for.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct BoundaryRules {
-    /// The boundary file whose rules are taken: a name such as cubic, or the path of a file [default: the first that the scheme names]
+    /// The boundary file whose rules are taken: a name such as cubic, the path of a file, or none [default: the first that the scheme names]
     #[arg(long = "boundary-rules", value_name = "RULES", value_delimiter = ',')]
     asked: Vec<String>,
 }
 
 impl BoundaryRules {
-    /// Those asked for; the scheme's first where nothing is asked for, and none where it names none.
+    /// Those asked for, `none` being none; the scheme's first where nothing is asked for, and none where it names none.
     fn open(&self, scheme: &Scheme) -> Result<Vec<Variant>, Failure> {
         match self.asked.iter().map(String::as_str).collect::<Vec<_>>()[..] {
             [] => scheme.boundary.first().map(|name| variant(scheme, name)).into_iter().collect(),
+            ["none"] => Ok(vec![]),
             ["all"] => scheme.boundary.iter().map(|name| variant(scheme, name)).collect(),
             ref names => names.iter().map(|name| variant(scheme, name.trim())).collect(),
         }

@@ -295,6 +295,10 @@ pub(crate) fn refused(scheme: &Scheme, wrong: NotRefinable) -> Failure {
             scheme.book.title
         )),
         NotRefinable::Obstacle(obstacle) => explain(scheme, obstacle),
+        NotRefinable::At(_, Obstacle::Boundary(_)) => failure(format!(
+            "{}: {wrong}\n  help: no rule is told for such a place: a shorter rule is needed, or a mesh without boundary and creases",
+            scheme.book.title
+        )),
         NotRefinable::Face { needed: 3, .. } => failure(format!(
             "{}: {wrong}\n  help: --triangulate cuts them, or take a scheme for polygons, such as catmull-clark",
             scheme.book.title

@@ -11,7 +11,7 @@ use eigenring::analysis::boundary::MAX_FACES;
 use eigenring::analysis::places::Place;
 use eigenring::analysis::verify::{Check, Levels, NORMAL, POSITION, Verifier};
 use eigenring::mesh::{Connectivity, FanKind, HalfEdgeMesh, PolygonSoup, Tags, shapes};
-use eigenring::refine::{Level, Refiner};
+use eigenring::refine::{Level, Obstacle, Refiner};
 use eigenring::scheme::Scheme;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeSet;
@@ -93,7 +93,7 @@ impl Verify {
         let bar = progress(places.len());
         let mut checks = Vec::new();
         for place in places {
-            let masks = verifier.masks(place).map_err(|obstacle| explain(&scheme, obstacle))?;
+            let masks = verifier.masks(place).map_err(|obstacle| no_masks(&scheme, place, obstacle))?;
             let check = verifier.check(place, &masks, self.trials.into(), self.seed);
             checks.push(check.map_err(|wrong| no_limit(&scheme, wrong))?);
             bar.inc(1);
@@ -149,6 +149,18 @@ impl Verify {
             found.push(OnMesh { name, steps, levels });
         }
         Ok(found)
+    }
+}
+
+/// Why a place has no masks, with the place where that is it.
+fn no_masks(scheme: &Scheme, place: Place, obstacle: Obstacle) -> Failure {
+    match obstacle {
+        Obstacle::Boundary(_) => {
+            let at = place_words(place);
+            let help = "a shorter rule is needed there; --boundary-rules none leaves boundaries, corners and darts out";
+            failure(format!("{}: at the place `{at}`: {obstacle}\n  help: {help}", scheme.book.title))
+        }
+        other => explain(scheme, other),
     }
 }
 

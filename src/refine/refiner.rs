@@ -5,7 +5,7 @@
 
 use super::gather::Coordinate;
 use super::pass::{add_scaled, collected};
-use super::steps::PassRefiner;
+use super::steps::{PassRefiner, standing_at};
 use super::{Buffers, Counts, Level, NotRefinable, Obstacle, Pass, Refined, Route, Row};
 use crate::mesh::{Centre, HalfEdgeMesh, Lattice, Numbering, Split, Tags};
 use crate::scheme::{RuleBook, Scheme};
@@ -196,7 +196,7 @@ impl<'a> Refiner<'a> {
     pub fn rows(&self, mesh: &HalfEdgeMesh, tags: &Tags) -> Result<Vec<Row<u32, f64>>, NotRefinable> {
         self.fits(mesh, tags)?;
         let chain = self.chain(mesh, tags, 1)?;
-        (0..chain.mesh.vertices() as u32).map(|point| Ok(chain.row(point)?)).collect()
+        (0..chain.mesh.vertices() as u32).map(|point| chain.row(point)).collect()
     }
 
     /// The meshes of some steps.
@@ -241,19 +241,21 @@ impl Chain<'_> {
     ///
     /// # Errors
     /// When a point can't be made.
-    pub fn row(&self, point: u32) -> Result<Row<u32, f64>, Obstacle> {
+    pub fn row(&self, point: u32) -> Result<Row<u32, f64>, NotRefinable> {
         let mut row = vec![(point, 1.0)];
-        for link in self.links.iter().rev() {
+        for (index, link) in self.links.iter().enumerate().rev() {
             let born = |point: u32| {
                 let birth = link.split.birth(&link.mesh, &link.numbering, point as usize);
-                link.rules.row_of_birth(&link.mesh, &link.tags, birth)
+                let row = link.rules.row_of_birth(&link.mesh, &link.tags, birth);
+                // vertices of meshes between are nobody's
+                row.map_err(|o| if index == 0 { standing_at(&link.mesh, birth, o) } else { o.into() })
             };
             row = match row.as_slice() {
                 [(only, 1.0)] => born(*only)?,
                 several => {
                     let mut sum = Vec::new();
                     for (point, weight) in several {
-                        add_scaled(&mut sum, &born(*point)?, weight)?;
+                        add_scaled(&mut sum, &born(*point)?, weight).map_err(Obstacle::from)?;
                     }
                     collected(sum)?
                 }

@@ -8,7 +8,7 @@ use super::compact::Compact;
 use super::gather::{self, Coordinate, Point};
 use super::{Obstacle, Pass, Row};
 use crate::mesh::{
-    Connectivity, Faces, HalfEdgeMesh, MAX_CORNERS, NONE, NotAMesh, Numbering, Split, Tags, first_corner,
+    Birth, Connectivity, Faces, HalfEdgeMesh, MAX_CORNERS, NONE, NotAMesh, Numbering, Split, Tags, first_corner,
 };
 use crate::scheme::{PassRules, RuleBook, Scheme};
 use rayon::prelude::*;
@@ -77,6 +77,8 @@ pub enum NotRefinable {
     Mesh(NotAMesh),
     /// A point that can't be made.
     Obstacle(Obstacle),
+    /// The same because of its surroundings: at a vertex, or at the edge or in the face of these vertices.
+    At(Vec<u32>, Obstacle),
 }
 
 impl fmt::Display for NotRefinable {
@@ -101,6 +103,15 @@ impl fmt::Display for NotRefinable {
             NotRefinable::Split(name) => write!(f, "the split {name} can't be applied to meshes"),
             NotRefinable::Mesh(wrong) => write!(f, "{wrong}"),
             NotRefinable::Obstacle(obstacle) => write!(f, "{obstacle}"),
+            NotRefinable::At(vertices, obstacle) => {
+                let place = match vertices.as_slice() {
+                    [_] => "vertex",
+                    [_, _] => "the edge of vertices",
+                    _ => "the face of vertices",
+                };
+                let names: Vec<String> = vertices.iter().map(u32::to_string).collect();
+                write!(f, "{obstacle}, at {place} {}", names.join(", "))
+            }
         }
     }
 }
@@ -111,6 +122,19 @@ impl From<Obstacle> for NotRefinable {
     fn from(obstacle: Obstacle) -> Self {
         NotRefinable::Obstacle(obstacle)
     }
+}
+
+/// What stands in the way of a point of a mesh; where its surroundings do, with the place.
+pub(super) fn standing_at(mesh: &HalfEdgeMesh, birth: Birth, obstacle: Obstacle) -> NotRefinable {
+    if !matches!(obstacle, Obstacle::Boundary(_) | Obstacle::Limit(_)) {
+        return obstacle.into();
+    }
+    let at = match birth {
+        Birth::Vertex(h) | Birth::Corner(h) => vec![mesh.origin(h)],
+        Birth::Edge(h) => vec![mesh.origin(h), mesh.target(h)],
+        Birth::Face(h) => mesh.around_face(h).into_iter().map(|h| mesh.origin(h)).collect(),
+    };
+    NotRefinable::At(at, obstacle)
 }
 
 impl From<NotAMesh> for NotRefinable {
@@ -260,14 +284,15 @@ impl<'a> PassRefiner<'a> {
         level: &Level<T>,
         numbering: &Numbering,
         positions: &mut [Point<T>],
-    ) -> Result<(), Obstacle> {
+    ) -> Result<(), NotRefinable> {
         const RUN: usize = 1024;
         positions.par_chunks_mut(RUN).enumerate().try_for_each_init(
             || self.rules(),
             |rules, (run, points)| {
                 points.iter_mut().enumerate().try_for_each(|(at, point)| {
                     let birth = self.split.birth(&level.mesh, numbering, RUN * run + at);
-                    *point = applied(&rules.row_of_birth(&level.mesh, &level.tags, birth)?, &level.positions);
+                    let row = rules.row_of_birth(&level.mesh, &level.tags, birth);
+                    *point = applied(&row.map_err(|o| standing_at(&level.mesh, birth, o))?, &level.positions);
                     Ok(())
                 })
             },
@@ -281,18 +306,19 @@ impl<'a> PassRefiner<'a> {
         numbering: &Numbering,
         points: &[u32],
         positions: &mut [Point<T>],
-    ) -> Result<(), Obstacle> {
+    ) -> Result<(), NotRefinable> {
         let made: Vec<(u32, Point<T>)> = points
             .par_iter()
             .map_init(
                 || self.rules(),
                 |rules, point| {
                     let birth = self.split.birth(&level.mesh, numbering, *point as usize);
-                    let row = rules.row_of_birth(&level.mesh, &level.tags, birth)?;
+                    let row = rules.row_of_birth(&level.mesh, &level.tags, birth);
+                    let row = row.map_err(|o| standing_at(&level.mesh, birth, o))?;
                     Ok((*point, applied(&row, &level.positions)))
                 },
             )
-            .collect::<Result<_, Obstacle>>()?;
+            .collect::<Result<_, NotRefinable>>()?;
         made.iter().for_each(|(point, position)| positions[*point as usize] = *position);
         Ok(())
     }

@@ -352,7 +352,7 @@ fn overview(reports: &[BoundaryReport]) -> Table {
         names.join(", ")
     );
     let row = |(at, own): (usize, &BoundaryReport)| {
-        let rest = own.eigenvalues.iter().filter(|e| e.quantity.value != [1.0, 0.0] || e.parity != "even");
+        let rest = own.after_one();
         let leading: Vec<Cell> = rest.take(3).map(eigenvalue).collect();
         let c1 = in_short(&own.verdict);
         (at, vec![own.size.to_string().into(), Cell::joined(&leading), own.tangent_plane().into(), c1.into()])
@@ -373,6 +373,13 @@ fn in_short(verdict: &Verdict) -> String {
 }
 
 impl BoundaryReport {
+    /// The eigenvalues without the 1 of the constants, which is even and comes first.
+    fn after_one(&self) -> impl Iterator<Item = &ParityReport> {
+        let is_one = |e: &ParityReport| (e.quantity.value[0] - 1.0).abs() < 1e-9 && e.parity == "even";
+        let one = self.eigenvalues.iter().position(is_one);
+        self.eigenvalues.iter().enumerate().filter(move |(at, _)| Some(*at) != one).map(|(_, e)| e)
+    }
+
     /// Whether there is a tangent plane, or why not.
     fn tangent_plane(&self) -> String {
         let slowly = |e: &ParityReport| e.jordan.is_some_and(|size| size > 1);
@@ -503,7 +510,7 @@ pub fn terminal(reports: &[BoundaryReport]) -> String {
         "", "k", "", "points", "", ""
     );
     for own in reports {
-        let rest = own.eigenvalues.iter().filter(|e| e.quantity.value != [1.0, 0.0] || e.parity != "even");
+        let rest = own.after_one();
         let mut leading = rest.map(|e| {
             let [re, im] = e.quantity.value;
             let value = if im == 0.0 { format!("{re:.10}") } else { format!("{re:.4}{im:+.4}i") };

@@ -141,7 +141,7 @@ impl<'r, 'a> Zoom<'r, 'a> {
         let centre = chain.becomes(middle).unwrap_or(middle);
         let kept = self.kept(&chain.mesh, centre);
         let point = |vertex: &u32| Ok(row_applied(&chain.row(*vertex)?, &self.points));
-        let points = kept.iter().map(point).collect::<Result<Vec<_>, Obstacle>>()?;
+        let points = kept.iter().map(point).collect::<Result<Vec<_>, NotRefinable>>()?;
         let ring = match self.next_ring(&chain, &kept) {
             Some(ring) => ring,
             None => self.nearest_ring(&chain, centre, &kept)?,
@@ -164,7 +164,7 @@ impl<'r, 'a> Zoom<'r, 'a> {
 
     /// The new neighbours of the centre (dual: the corners of its face), among those that are kept, counter-clockwise from the one that lies in
     /// the direction of the old ring's first, by the weights that its row gives to the old ring.
-    fn nearest_ring(&self, chain: &Chain, centre: Centre, kept: &[u32]) -> Result<Vec<usize>, Obstacle> {
+    fn nearest_ring(&self, chain: &Chain, centre: Centre, kept: &[u32]) -> Result<Vec<usize>, NotRefinable> {
         let mesh = &chain.mesh;
         let own: Vec<u32> = match centre {
             Centre::Vertex(vertex) => mesh

@@ -6,7 +6,7 @@ use super::super::bad_file::{BadFile, Kind, Place, shown};
 use super::super::left_out::LeftOut;
 use super::super::text::{real, whole};
 use super::vertex_index;
-use crate::mesh::Crease;
+use crate::mesh::{Crease, Faces};
 use std::collections::HashMap;
 
 /// From this sharpness on a counted tag means for ever: OpenSubdiv's `SHARPNESS_INFINITE`.
@@ -74,8 +74,26 @@ impl Tags {
         Ok(())
     }
 
-    /// Whether all vertices exist.
-    pub(super) fn check(&self, vertices: usize) -> Result<(), BadFile> {
+    /// Whether all vertices and edges exist.
+    pub(super) fn check(&self, vertices: usize, faces: &Faces) -> Result<(), BadFile> {
+        self.check_vertices(vertices)?;
+        let ordered = |a: u32, b: u32| (a.min(b), a.max(b));
+        let mut loose: HashMap<(u32, u32), usize> = HashMap::new();
+        for (Crease { ends: [a, b], .. }, line) in &self.creases {
+            loose.entry(ordered(*a, *b)).or_insert(*line);
+        }
+        for face in faces.iter().filter(|_| !self.creases.is_empty()) {
+            for (a, b) in face.iter().zip(face.iter().cycle().skip(1)) {
+                loose.remove(&ordered(*a, *b));
+            }
+        }
+        let Some(((a, b), line)) = loose.iter().min_by_key(|(_, line)| **line) else { return Ok(()) };
+        let message =
+            format!("a crease is told between vertices {a} and {b}, counted from 0, but no face has that edge");
+        Err(BadFile { more: loose.len() - 1, ..bad(*line, message) })
+    }
+
+    fn check_vertices(&self, vertices: usize) -> Result<(), BadFile> {
         let ends = self.creases.iter().flat_map(|(crease, line)| crease.ends.map(|end| (end, *line)));
         let all = ends.chain(self.corners.iter().map(|(vertex, _, line)| (*vertex, *line)));
         let beyond = || all.clone().filter(|(vertex, _)| *vertex as usize >= vertices);
