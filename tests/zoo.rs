@@ -315,6 +315,7 @@ fn meshes_that_a_split_cannot_take_are_refused() {
     };
     assert_eq!(refused("sqrt3", shapes::cube()), NotRefinable::Face { face: 0, corners: 4, needed: 3 });
     assert_eq!(refused("kobbelt", shapes::tetrahedron()), NotRefinable::Face { face: 0, corners: 3, needed: 4 });
+    // without rules for the boundary
     assert!(matches!(refused("sqrt3", shapes::tube(3, 4, true)), NotRefinable::Boundary(_)));
     assert!(matches!(refused("four-eight", shapes::tube(3, 4, false)), NotRefinable::Boundary(_)));
     // cut into triangles it is taken
@@ -339,4 +340,62 @@ fn boundaries_recede_under_dual_splits() {
         let flat = at.positions.iter().all(|p| p.iter().all(|x| x.is_finite()));
         assert!(flat, "{id}");
     }
+}
+
+/// Along a boundary sqrt3 leaves points alone in every other step and cuts edges into three in the next: two steps are one of the ternary cubic
+/// B-spline, whose mask is (1, 4, 10, 16, 19, 16, 10, 4, 1)/27.
+#[test]
+fn the_boundary_of_sqrt3_is_a_cubic_spline() {
+    let scheme = open("sqrt3");
+    let book = catalogue::boundary("thirds", "triangles").unwrap().unwrap();
+    let refiner = Refiner::new(&scheme, Some(&book)).unwrap();
+    let start = level(shaken(shapes::tube(4, 5, true)));
+    let rings = |at: &Level<f64>| {
+        // the boundary's curves, each from its lowest vertex on
+        let mesh = &at.mesh;
+        let next = |vertex: u32| mesh.target(mesh.vertex_edges()[vertex as usize]);
+        let on = |vertex: &u32| mesh.boundary_at(mesh.vertex_edges()[*vertex as usize]).is_some();
+        let mut left: Vec<u32> = (0..mesh.vertices() as u32).filter(on).collect();
+        let mut rings: Vec<Vec<u32>> = Vec::new();
+        while let Some(first) = left.first().copied() {
+            let mut ring = vec![first];
+            while next(ring[ring.len() - 1]) != first {
+                ring.push(next(ring[ring.len() - 1]));
+            }
+            left.retain(|vertex| !ring.contains(vertex));
+            rings.push(ring);
+        }
+        rings
+    };
+    let one = refiner.step(&start, Route::Fast).unwrap();
+    let before = rings(&start);
+    assert_eq!(rings(&one), before);
+    assert!(before.iter().flatten().all(|v| one.positions[*v as usize] == start.positions[*v as usize]));
+    let two = refiner.step(&one, Route::Fast).unwrap();
+    two.mesh.validate().unwrap();
+    assert_eq!(two.mesh.euler_characteristic(), start.mesh.euler_characteristic());
+    let after = rings(&two);
+    assert_eq!(after.len(), before.len());
+    for (old, new) in before.iter().zip(&after) {
+        assert_eq!(new.len(), 3 * old.len());
+        let m = old.len();
+        for (at, vertex) in new.iter().enumerate() {
+            let stencil: [(usize, f64); 3] = match at % 3 {
+                0 => [(m - 1, 4.0), (0, 19.0), (1, 4.0)],
+                1 => [(m - 1, 1.0), (0, 16.0), (1, 10.0)],
+                _ => [(0, 10.0), (1, 16.0), (2, 1.0)],
+            };
+            for axis in 0..3 {
+                let point = |(offset, weight): &(usize, f64)| {
+                    weight / 27.0 * start.positions[old[(at / 3 + offset) % m] as usize][axis]
+                };
+                let expected: f64 = stencil.iter().map(point).sum();
+                assert!((two.positions[*vertex as usize][axis] - expected).abs() < 1e-14);
+            }
+        }
+    }
+    // new vertices on the boundary have three triangles
+    let faces = |v: &u32| two.mesh.valence(two.mesh.vertex_edges()[*v as usize]) - 1;
+    let new = after.iter().flat_map(|ring| ring.iter().enumerate().filter(|(at, _)| at % 3 != 0));
+    assert!(new.map(|(_, vertex)| faces(vertex)).all(|count| count == 3));
 }

@@ -9,7 +9,7 @@ use eigenring::analysis::boundary::MAX_FACES;
 use eigenring::analysis::limit::{LimitSurface, Limits, NoLimit};
 use eigenring::analysis::local::MAX_VALENCE;
 use eigenring::mesh::io::{Coordinates, Output};
-use eigenring::mesh::{Connectivity, HalfEdgeMesh};
+use eigenring::mesh::{Connectivity, HalfEdgeMesh, Tags};
 use eigenring::refine::{Coordinate, Counts, Level, NotRefinable, Obstacle, Refined, Refiner, Route};
 use eigenring::scheme::{RuleBook, Scheme};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -138,7 +138,7 @@ impl Job {
         let mut at = Level { mesh: loaded.mesh, positions, tags: loaded.tags };
         let bar = progress(levels, Counts::of(&at.mesh).faces << (2 * levels as u32).min(100));
         // of the last step no mesh is needed, unless something is to be done with it
-        let receding = !refiner.keeps_boundary() && !at.mesh.is_closed();
+        let receding = refiner.recedes() && !at.mesh.is_closed();
         let whole = to_limit || receding || !at.tags.is_empty();
         let whole_steps = if whole { levels } else { levels.saturating_sub(1) };
         for _ in 0..whole_steps {
@@ -148,7 +148,7 @@ impl Job {
         if to_limit {
             self.write_limit::<T>(scheme, &refiner, at, start, &bar)
         } else if whole_steps < levels {
-            let edges = refiner.counts_after(Counts::of(&at.mesh)).edges;
+            let edges = refiner.counts_after(Counts::of(&at.mesh), &at.tags).edges;
             let Refined { faces, positions } =
                 refiner.finish(at, Route::Fast).map_err(|wrong| refused(scheme, wrong))?;
             bar.finish_and_clear();
@@ -231,7 +231,7 @@ pub(crate) fn check_size<T: Coordinate>(
     let available = memory::available();
     while made < levels && counts.can_be_numbered() {
         most = most.max(refiner.bytes_of_step::<T>(counts));
-        counts = refiner.counts_after(counts);
+        counts = refiner.counts_after(counts, &Tags::default());
         made += 1;
         // of the last level a mesh is made, to be told about or pushed to the limit
         needed = most.max(counts.bytes_of_mesh::<T>()).max(limit_of(counts));

@@ -13,6 +13,8 @@ pub struct Tags {
     sharp: Vec<(u32, f64)>,
     /// The vertices that are corners, in order.
     corners: Vec<u32>,
+    /// Whether a sqrt3 step has left the boundary's edges whole, so that the next one cuts them into three.
+    thirds_next: bool,
 }
 
 /// Why a tag fits no place of a mesh.
@@ -62,7 +64,7 @@ impl Tags {
     /// From crease edges, told by any of their corners, and vertices.
     pub(super) fn of_children(mesh: &HalfEdgeMesh, sharp: Vec<(u32, f64)>, corners: Vec<u32>) -> Tags {
         let sharp = sharp.into_iter().map(|(edge, sharpness)| (first_corner(mesh, edge), sharpness)).collect();
-        Tags { sharp, corners }.in_order()
+        Tags { sharp, corners, thirds_next: false }.in_order()
     }
 
     fn in_order(mut self) -> Tags {
@@ -82,6 +84,16 @@ impl Tags {
         let corners = mesh.vertex_edges().iter().enumerate().filter(|(_, h)| one_face(h));
         self.corners.extend(corners.map(|(vertex, _)| vertex as u32));
         self.in_order()
+    }
+
+    /// No tags on a mesh whose boundary is to be cut into thirds, or not, in the next sqrt3 step.
+    pub(super) fn with_thirds_next(thirds_next: bool) -> Tags {
+        Tags { thirds_next, ..Tags::default() }
+    }
+
+    /// Whether the next sqrt3 step cuts the boundary's edges into three.
+    pub fn thirds_next(&self) -> bool {
+        self.thirds_next
     }
 
     /// Whether there are none.

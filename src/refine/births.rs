@@ -23,6 +23,8 @@ impl Pass<'_, f64> {
         let lasting = match birth {
             Birth::Face(edge) => return self.face_row(mesh, edge),
             Birth::Corner(edge) => return self.corner_row(mesh, edge),
+            Birth::Kept(edge) => return Ok(vec![(mesh.origin(edge), 1.0)]),
+            Birth::Third(edge) => return self.third_row(mesh, edge),
             Birth::Edge(edge) => lasting(std::iter::once(tags.sharpness(edge))).or_else(|| {
                 let told_from_ends = self.has_rules_from_sharp_ends() && !tags.creases().is_empty();
                 told_from_ends.then(|| lasting([edge, mesh.twin(edge)].into_iter().flat_map(at_vertex)))?

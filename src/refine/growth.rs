@@ -53,6 +53,16 @@ impl Counts {
             Split::Sqrt3 => {
                 Counts { vertices: vertices + faces, edges: edges + corners, faces: corners, corners: 3 * corners }
             }
+            Split::Sqrt3Thirds => {
+                // each edge of the boundary has one corner
+                let boundary = (2 * edges).saturating_sub(corners);
+                Counts {
+                    vertices: vertices + faces + boundary,
+                    edges: edges + corners + boundary,
+                    faces: corners,
+                    corners: 3 * corners,
+                }
+            }
             Split::Sqrt2 => Counts { vertices: vertices + faces, edges: corners, faces: edges, corners: 4 * edges },
             Split::MidEdge => Counts { vertices: edges, edges: corners, faces: faces + vertices, corners: 2 * corners },
             Split::FacesToVertices => Counts { vertices: faces, edges, faces: vertices, corners },
@@ -96,15 +106,15 @@ mod tests {
     fn counts_are_those_of_the_meshes_that_splits_make() {
         let shapes = [shapes::torus(4, 5, true), shapes::many_valences(), shapes::tube(3, 4, true), shapes::prism(7)];
         for (index, shape) in shapes.iter().enumerate() {
-            for (_, split) in Split::NAMED {
+            for split in Split::NAMED.map(|(_, split)| split).into_iter().chain([Split::Sqrt3Thirds]) {
                 let mut mesh = HalfEdgeMesh::new(shape.positions.len(), shape.faces.clone()).unwrap();
-                let triangles = matches!(split, Split::OneToFour | Split::Sqrt3);
-                if (triangles && index == 3) || (!split.keeps_boundary() && !mesh.is_closed()) {
+                let triangles = matches!(split, Split::OneToFour | Split::Sqrt3 | Split::Sqrt3Thirds);
+                if (triangles && index == 3) || (split.recedes() && !mesh.is_closed()) {
                     continue;
                 }
                 for _ in 0..2 {
                     let expected = Counts::of(&mesh).after(split);
-                    let numbering = Numbering::of(&mesh);
+                    let numbering = split.numbering(&mesh, Numbering::default());
                     let faces = split.faces(&mesh, &numbering, Vec::new());
                     mesh = split.mesh(&mesh, &numbering, faces).unwrap();
                     assert_eq!(Counts::of(&mesh), expected, "{split:?}, shape {index}");

@@ -82,7 +82,7 @@ impl<'a, W: Field> Pass<'a, W> {
     pub(super) fn weighed(scheme: &'a Scheme, told: PassRules<'a>, weigher: Rc<dyn Weigher<W> + 'a>) -> Self {
         let on = if scheme.mesh == "triangles" { Lattice::Triangles } else { Lattice::Quads };
         let splits = scheme.passes();
-        let recedes = splits.iter().any(|pass| Split::named(pass.split).is_some_and(|split| !split.keeps_boundary()));
+        let recedes = splits.iter().any(|pass| Split::named(pass.split).is_some_and(Split::recedes));
         Pass { scheme, told, boundary: None, weigher, recedes, on, terms: RefCell::new(HashMap::new()) }
     }
 
@@ -180,6 +180,16 @@ impl<'a, W: Field> Pass<'a, W> {
         }
         let corners = mesh.around_face(edge);
         self.apply(mesh, RuleKind::Corner, corners.len(), &corners)
+    }
+
+    /// The row of the new point on an edge of the boundary, at the third that is nearer to the origin of `edge`: told around the boundary's two
+    /// half-edges there, the one to the far end first.
+    ///
+    /// # Errors
+    /// As [`Pass::row_at`].
+    pub fn third_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
+        let beyond = if mesh.has_face(edge) { mesh.turn_back(edge) } else { mesh.turn(edge) };
+        self.apply(mesh, RuleKind::CreaseThird, 0, &[edge, beyond])
     }
 
     pub(super) fn apply<M: Connectivity>(

@@ -58,7 +58,12 @@ impl<'a> Refiner<'a> {
         self.steps
     }
 
-    /// Whether the boundary is refined by rules of its own; else it recedes.
+    /// Whether the boundary recedes.
+    pub fn recedes(&self) -> bool {
+        self.splits().any(Split::recedes)
+    }
+
+    /// Whether edges of the boundary are halved or stay in every step, by rules of their own.
     pub fn keeps_boundary(&self) -> bool {
         self.splits().all(Split::keeps_boundary)
     }
@@ -73,9 +78,9 @@ impl<'a> Refiner<'a> {
         matches!(self.passes.as_slice(), [pass] if pass.is_compact())
     }
 
-    /// The parts of a mesh after a step.
-    pub fn counts_after(&self, counts: Counts) -> Counts {
-        self.splits().fold(counts, Counts::after)
+    /// The parts of a mesh with these tags after a step.
+    pub fn counts_after(&self, counts: Counts, tags: &Tags) -> Counts {
+        self.splits().map(|split| split.at(tags)).fold(counts, Counts::after)
     }
 
     /// The most bytes that are in use at one time during a step.
@@ -127,7 +132,7 @@ impl<'a> Refiner<'a> {
         let mut at = Cow::Borrowed(level);
         for pass in &self.passes {
             if !centres.is_empty() {
-                let becoming = pass.split.becoming(&at.mesh);
+                let becoming = pass.split.at(&at.tags).becoming(&at.mesh);
                 centres.iter_mut().for_each(|centre| *centre = centre.and_then(|own| becoming.of(own)));
             }
             at = Cow::Owned(pass.step(&at, route)?);
@@ -206,13 +211,14 @@ impl<'a> Refiner<'a> {
     pub fn chain(&self, mesh: &HalfEdgeMesh, tags: &Tags, steps: usize) -> Result<Chain<'a>, NotRefinable> {
         let mut chain = Chain { links: Vec::new(), mesh: mesh.clone(), tags: tags.clone() };
         for pass in self.passes.iter().cycle().take(self.passes.len() * steps) {
-            pass.split.new_corners(&chain.mesh)?;
-            let numbering = pass.split.numbering(&chain.mesh, Numbering::default());
-            let faces = pass.split.faces(&chain.mesh, &numbering, Vec::new());
-            let mesh = pass.split.mesh(&chain.mesh, &numbering, faces)?;
-            let tags = pass.split.tags(&chain.mesh, &chain.tags, &mesh);
+            let split = pass.split.at(&chain.tags);
+            split.new_corners(&chain.mesh)?;
+            let numbering = split.numbering(&chain.mesh, Numbering::default());
+            let faces = split.faces(&chain.mesh, &numbering, Vec::new());
+            let mesh = split.mesh(&chain.mesh, &numbering, faces)?;
+            let tags = split.tags(&chain.mesh, &chain.tags, &mesh);
             let old = (std::mem::replace(&mut chain.mesh, mesh), std::mem::replace(&mut chain.tags, tags));
-            chain.links.push(Link { split: pass.split, rules: pass.rules(), mesh: old.0, tags: old.1, numbering });
+            chain.links.push(Link { split, rules: pass.rules(), mesh: old.0, tags: old.1, numbering });
         }
         Ok(chain)
     }

@@ -130,8 +130,8 @@ pub(super) fn standing_at(mesh: &HalfEdgeMesh, birth: Birth, obstacle: Obstacle)
         return obstacle.into();
     }
     let at = match birth {
-        Birth::Vertex(h) | Birth::Corner(h) => vec![mesh.origin(h)],
-        Birth::Edge(h) => vec![mesh.origin(h), mesh.target(h)],
+        Birth::Vertex(h) | Birth::Corner(h) | Birth::Kept(h) => vec![mesh.origin(h)],
+        Birth::Edge(h) | Birth::Third(h) => vec![mesh.origin(h), mesh.target(h)],
         Birth::Face(h) => mesh.around_face(h).into_iter().map(|h| mesh.origin(h)).collect(),
     };
     NotRefinable::At(at, obstacle)
@@ -200,7 +200,8 @@ impl<'a> PassRefiner<'a> {
         if !self.split.keeps_boundary() && !tags.is_empty() {
             return Err(NotRefinable::Tags);
         }
-        if matches!(self.split, Split::Sqrt2 | Split::Sqrt3) && !mesh.is_closed() {
+        let without = self.split == Split::Sqrt2 || (self.split == Split::Sqrt3 && self.boundary.is_none());
+        if without && !mesh.is_closed() {
             return Err(NotRefinable::Boundary(self.told.split.to_string()));
         }
         let two_edges = |h: &u32| mesh.valence(*h) == 2 && mesh.boundary_at(*h).is_none();
@@ -219,8 +220,9 @@ impl<'a> PassRefiner<'a> {
     pub(super) fn step<T: Coordinate>(&self, level: &Level<T>, route: Route) -> Result<Level<T>, NotRefinable> {
         let mut buffers = Buffers::default();
         let Refined { faces, positions } = self.last_step_in(level, route, &mut buffers)?;
-        let mesh = self.split.mesh(&level.mesh, &buffers.numbering, faces).map_err(NotRefinable::Receding)?;
-        let tags = self.split.tags(&level.mesh, &level.tags, &mesh);
+        let mesh =
+            self.split.at(&level.tags).mesh(&level.mesh, &buffers.numbering, faces).map_err(NotRefinable::Receding)?;
+        let tags = self.split.at(&level.tags).tags(&level.mesh, &level.tags, &mesh);
         Ok(Level { mesh, positions, tags })
     }
 
@@ -236,7 +238,7 @@ impl<'a> PassRefiner<'a> {
     ) -> Result<Refined<T>, NotRefinable> {
         let positions = self.new_positions(level, route, buffers)?;
         let corners = std::mem::take(&mut buffers.corners);
-        let faces = self.split.faces(&level.mesh, &buffers.numbering, corners);
+        let faces = self.split.at(&level.tags).faces(&level.mesh, &buffers.numbering, corners);
         Ok(Refined { faces, positions })
     }
 
@@ -247,9 +249,10 @@ impl<'a> PassRefiner<'a> {
     pub(super) fn finish<T: Coordinate>(&self, level: Level<T>, route: Route) -> Result<Refined<T>, NotRefinable> {
         let mut buffers = Buffers::default();
         let positions = self.new_positions(&level, route, &mut buffers)?;
+        let split = self.split.at(&level.tags);
         let Level { mesh, positions: old, tags } = level;
         drop((old, tags));
-        Ok(Refined { faces: self.split.last_faces(mesh, buffers.numbering), positions })
+        Ok(Refined { faces: split.last_faces(mesh, buffers.numbering), positions })
     }
 
     /// The points of the next level; edges are numbered on the way.
@@ -260,10 +263,10 @@ impl<'a> PassRefiner<'a> {
         buffers: &mut Buffers<T>,
     ) -> Result<Vec<Point<T>>, NotRefinable> {
         self.fits(&level.mesh, &level.tags)?;
-        self.split.new_corners(&level.mesh)?;
-        buffers.numbering = self.split.numbering(&level.mesh, std::mem::take(&mut buffers.numbering));
+        self.split.at(&level.tags).new_corners(&level.mesh)?;
+        buffers.numbering = self.split.at(&level.tags).numbering(&level.mesh, std::mem::take(&mut buffers.numbering));
         let numbering = &buffers.numbering;
-        let count = self.split.new_vertices(&level.mesh, numbering);
+        let count = self.split.at(&level.tags).new_vertices(&level.mesh, numbering);
         if count > MAX_CORNERS {
             return Err(NotAMesh::TooLarge.into());
         }
@@ -290,7 +293,7 @@ impl<'a> PassRefiner<'a> {
             || self.rules(),
             |rules, (run, points)| {
                 points.iter_mut().enumerate().try_for_each(|(at, point)| {
-                    let birth = self.split.birth(&level.mesh, numbering, RUN * run + at);
+                    let birth = self.split.at(&level.tags).birth(&level.mesh, numbering, RUN * run + at);
                     let row = rules.row_of_birth(&level.mesh, &level.tags, birth);
                     *point = applied(&row.map_err(|o| standing_at(&level.mesh, birth, o))?, &level.positions);
                     Ok(())
@@ -312,7 +315,7 @@ impl<'a> PassRefiner<'a> {
             .map_init(
                 || self.rules(),
                 |rules, point| {
-                    let birth = self.split.birth(&level.mesh, numbering, *point as usize);
+                    let birth = self.split.at(&level.tags).birth(&level.mesh, numbering, *point as usize);
                     let row = rules.row_of_birth(&level.mesh, &level.tags, birth);
                     let row = row.map_err(|o| standing_at(&level.mesh, birth, o))?;
                     Ok((*point, applied(&row, &level.positions)))

@@ -41,8 +41,9 @@ pub const SCHEMES: [Listed; 13] = listed! {
 };
 
 /// Every boundary file of the catalogue.
-pub const BOUNDARIES: [Listed; 3] = listed! {
+pub const BOUNDARIES: [Listed; 4] = listed! {
     "cubic" => "boundary/cubic.toml",
+    "thirds" => "boundary/thirds.toml",
     "hoppe-1994" => "boundary/hoppe-1994.toml",
     "biermann-levin-zorin-2000" => "boundary/biermann-levin-zorin-2000.toml",
 };

@@ -38,6 +38,9 @@ pub enum RuleKind {
     /// An edge of the boundary or of a crease.
     #[serde(rename = "edge.crease")]
     EdgeCrease,
+    /// A third of an edge of the boundary, told from the end that is nearer.
+    #[serde(rename = "edge.crease.third")]
+    CreaseThird,
     /// Such an edge, told from an end that is a corner, or has a side whose number of faces is not the regular one.
     #[serde(rename = "edge.crease.from-irregular-end")]
     CreaseFromIrregularEnd,
@@ -57,7 +60,7 @@ pub enum RuleKind {
 
 impl RuleKind {
     /// Every kind of rule with its table in a scheme file.
-    pub const ALL: [(&'static str, RuleKind); 13] = [
+    pub const ALL: [(&'static str, RuleKind); 14] = [
         ("vertex", RuleKind::Vertex),
         ("edge", RuleKind::Edge),
         ("edge.from-irregular-end", RuleKind::EdgeFromIrregularEnd),
@@ -66,6 +69,7 @@ impl RuleKind {
         ("vertex.crease", RuleKind::VertexCrease),
         ("vertex.corner", RuleKind::VertexCorner),
         ("edge.crease", RuleKind::EdgeCrease),
+        ("edge.crease.third", RuleKind::CreaseThird),
         ("edge.crease.from-irregular-end", RuleKind::CreaseFromIrregularEnd),
         ("edge.crease.from-dart-end", RuleKind::CreaseFromDartEnd),
         ("edge.from-crease-end", RuleKind::EdgeFromCreaseEnd),
@@ -90,7 +94,8 @@ impl RuleKind {
     /// The variable that formulas of this rule may use beside parameters and `[let]` names.
     pub fn variable(self) -> Option<&'static str> {
         match self {
-            RuleKind::Edge | RuleKind::EdgeCrease | RuleKind::VertexCorner | RuleKind::CreaseFromIrregularEnd => None,
+            RuleKind::Edge | RuleKind::EdgeCrease | RuleKind::CreaseThird => None,
+            RuleKind::VertexCorner | RuleKind::CreaseFromIrregularEnd => None,
             RuleKind::VertexCrease | RuleKind::EdgeFromCreaseEnd | RuleKind::EdgeFromCornerEnd => Some("k"),
             _ => Some("n"),
         }
@@ -99,7 +104,7 @@ impl RuleKind {
     /// The number of half-edges that a rule is told around, where its count is `count`.
     pub fn starts(self, count: i64) -> i64 {
         match self {
-            RuleKind::Edge | RuleKind::EdgeCrease => 2,
+            RuleKind::Edge | RuleKind::EdgeCrease | RuleKind::CreaseThird => 2,
             RuleKind::VertexCorner | RuleKind::CreaseFromIrregularEnd => 1,
             RuleKind::VertexCrease => count + 1,
             // the edge itself and those beside it
@@ -115,7 +120,7 @@ impl RuleKind {
 
     /// Whether this rule belongs in a boundary file.
     pub fn is_boundary(self) -> bool {
-        matches!(self, RuleKind::VertexCrease | RuleKind::VertexCorner | RuleKind::EdgeCrease)
+        matches!(self, RuleKind::VertexCrease | RuleKind::VertexCorner | RuleKind::EdgeCrease | RuleKind::CreaseThird)
             || RuleKind::FROM_ENDS.contains(&self)
     }
 }

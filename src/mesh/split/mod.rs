@@ -27,8 +27,10 @@ pub enum Split {
     OneToN,
     /// A new point for each corner of each face; faces, edges and vertices become faces. The boundary recedes.
     Dual,
-    /// A new point in each triangle, edges inside the mesh flipped.
+    /// A new point in each triangle, edges inside the mesh flipped; edges of the boundary stay.
     Sqrt3,
+    /// The same after such a step: each edge of the boundary is cut into three, and its triangle has no new point.
+    Sqrt3Thirds,
     /// A new point in each face, edges inside the mesh become quads. The boundary recedes.
     Sqrt2,
     /// A new point on each edge; faces and vertices become faces. The boundary recedes.
@@ -59,13 +61,19 @@ pub enum Birth {
     Face(u32),
     /// At this corner.
     Corner(u32),
+    /// At the vertex that this half-edge leaves, which stays where it is.
+    Kept(u32),
+    /// On an edge of the boundary, at the third that is nearer to the vertex that this half-edge leaves.
+    Third(u32),
 }
 
 impl Birth {
     /// The half-edge that tells the place.
     pub fn half_edge(self) -> u32 {
-        let (Birth::Vertex(edge) | Birth::Edge(edge) | Birth::Face(edge) | Birth::Corner(edge)) = self;
-        edge
+        match self {
+            Birth::Vertex(edge) | Birth::Edge(edge) | Birth::Face(edge) => edge,
+            Birth::Corner(edge) | Birth::Kept(edge) | Birth::Third(edge) => edge,
+        }
     }
 }
 
@@ -92,7 +100,17 @@ impl Split {
         matches!(self, Split::Dual | Split::MidEdge | Split::FacesToVertices)
     }
 
-    /// Whether the boundary is refined by rules of its own; under other splits it recedes.
+    /// The split of a step on a mesh with these tags.
+    pub fn at(self, tags: &Tags) -> Split {
+        if self == Split::Sqrt3 && tags.thirds_next() { Split::Sqrt3Thirds } else { self }
+    }
+
+    /// Whether the boundary recedes; under other splits it is refined by rules of its own.
+    pub fn recedes(self) -> bool {
+        matches!(self, Split::Dual | Split::Sqrt2 | Split::MidEdge | Split::FacesToVertices)
+    }
+
+    /// Whether edges of the boundary, and so of creases, are halved or stay in every step.
     pub fn keeps_boundary(self) -> bool {
         matches!(self, Split::OneToFour | Split::OneToN | Split::Keep)
     }
@@ -106,7 +124,7 @@ impl Split {
         let corners = match self {
             Split::OneToFour | Split::OneToN => old.checked_mul(4),
             Split::Dual => dual::new_corners(mesh),
-            Split::Sqrt3 => old.checked_mul(3),
+            Split::Sqrt3 | Split::Sqrt3Thirds => old.checked_mul(3),
             Split::Sqrt2 | Split::MidEdge => old.checked_mul(2),
             Split::FacesToVertices | Split::Keep => Some(old),
         };
@@ -123,6 +141,7 @@ impl Split {
                 let parting = mid_edge::parting_edges(mesh, &numbering);
                 numbering.keeping(parting)
             }
+            Split::Sqrt3Thirds => sqrt3::with_thirds(mesh, numbering),
             _ => numbering,
         }
     }
@@ -135,6 +154,7 @@ impl Split {
             Split::OneToN => mesh.vertices() + numbering.edges() + mesh.faces().len(),
             Split::Dual => mesh.twins().len(),
             Split::Sqrt3 => mesh.vertices() + mesh.faces().len(),
+            Split::Sqrt3Thirds => mesh.vertices() + kept(mesh.faces().len()) + 2 * numbering.thirds().len(),
             Split::Sqrt2 => kept(mesh.vertices()) + mesh.faces().len(),
             Split::MidEdge => numbering.edges() + numbering.kept().map_or(0, <[u32]>::len),
             Split::FacesToVertices => kept(mesh.faces().len()),
@@ -159,8 +179,10 @@ impl Split {
                 let vertices = numbering.kept().map_or(mesh.vertices(), <[u32]>::len);
                 if point < vertices { vertex(kept(point)) } else { face(point - vertices) }
             }
+            Split::Sqrt3 if point < mesh.vertices() => sqrt3::vertex(mesh, point),
             _ if point < mesh.vertices() => vertex(point),
             Split::Sqrt3 => face(point - mesh.vertices()),
+            Split::Sqrt3Thirds => sqrt3::birth(mesh, numbering, point - mesh.vertices()),
             _ if point < edges => Birth::Edge(numbering.first_corners()[point - mesh.vertices()]),
             _ => face(point - edges),
         }
@@ -174,6 +196,7 @@ impl Split {
             Split::OneToN => one_to_n::faces(faces, twins, vertices, numbering, buffer),
             Split::Dual => dual::faces(mesh, numbering, buffer),
             Split::Sqrt3 => sqrt3::faces(mesh, buffer),
+            Split::Sqrt3Thirds => sqrt3::faces_with_thirds(mesh, numbering, buffer),
             Split::Sqrt2 => sqrt2::faces(mesh, numbering, buffer),
             Split::MidEdge => mid_edge::faces(mesh, numbering, buffer),
             Split::FacesToVertices => faces_to_vertices::faces(mesh, numbering, buffer),
@@ -216,6 +239,7 @@ impl Split {
             Split::OneToFour => one_to_four::edge_children,
             Split::OneToN => one_to_n::edge_children,
             Split::Keep => return tags.clone(),
+            Split::Sqrt3 => return Tags::with_thirds_next(true),
             _ => return Tags::default(),
         };
         let lasting = tags.creases().iter().filter(|(_, sharpness)| *sharpness > 1.0);
@@ -273,8 +297,8 @@ impl Becoming {
         };
         match (self.split, centre) {
             (Split::Keep, _) | (Split::Dual | Split::MidEdge, Centre::Face(_)) => Some(centre),
-            (Split::OneToFour | Split::OneToN | Split::Sqrt3, Centre::Vertex(_)) => Some(centre),
-            (Split::OneToFour | Split::Sqrt3, Centre::Face(_)) => None,
+            (Split::OneToFour | Split::OneToN | Split::Sqrt3 | Split::Sqrt3Thirds, Centre::Vertex(_)) => Some(centre),
+            (Split::OneToFour | Split::Sqrt3 | Split::Sqrt3Thirds, Centre::Face(_)) => None,
             (Split::OneToN | Split::Sqrt2, Centre::Face(face)) => Some(Centre::Vertex(self.offset + face)),
             (Split::Sqrt2, Centre::Vertex(vertex)) => among(&self.kept, vertex).map(Centre::Vertex),
             (Split::FacesToVertices, Centre::Face(face)) => among(&self.kept, face).map(Centre::Vertex),

@@ -17,6 +17,8 @@ pub struct Numbering {
     edges: usize,
     /// The vertices or faces that a receding boundary leaves, where not all; the edges where it parts faces.
     kept: Option<Vec<u32>>,
+    /// The first corners of the edges that are cut into three.
+    thirds: Vec<u32>,
 }
 
 impl Numbering {
@@ -55,12 +57,22 @@ impl Numbering {
                 }
             }
         });
-        Numbering { number, edges: first.len(), first, kept: None }
+        Numbering { number, edges: first.len(), first, kept: None, thirds: Vec::new() }
     }
 
     /// The same with a list of what a receding boundary leaves.
     pub(super) fn keeping(self, kept: Vec<u32>) -> Numbering {
         Numbering { kept: Some(kept), ..self }
+    }
+
+    /// The same with the edges that are cut into three.
+    pub(super) fn with_thirds(self, thirds: Vec<u32>) -> Numbering {
+        Numbering { thirds, ..self }
+    }
+
+    /// The first corners of the edges that are cut into three.
+    pub(super) fn thirds(&self) -> &[u32] {
+        &self.thirds
     }
 
     /// The vertices or faces that a receding boundary leaves, where not all; the edges where it parts faces.
