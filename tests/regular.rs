@@ -3,6 +3,7 @@
 
 use dashu_ratio::RBig;
 use eigenring::analysis::Analyzer;
+use eigenring::analysis::regular::box_spline::BoxSpline;
 use eigenring::analysis::regular::mask::{Dilation, Mask, Point, Sequence};
 use eigenring::analysis::regular::{Regular, Smoothness};
 use eigenring::numbers::{Field, Free};
@@ -202,15 +203,17 @@ fn degrees_are_those_of_the_definition() {
         let tau = regular.moments.shift.each_ref().map(|own| own.as_rational().unwrap().to_f64().value());
         let at = |[i, j]: Point| [f64::from(i) + tau[0], f64::from(j) + tau[1]];
         let refined = |[i, j]: Point, monomial: (i32, i32)| -> f64 {
-            let old = |(di, dj): (i32, i32)| at([i.div_euclid(2) + di, j.div_euclid(2) + dj]);
+            let (p, q) = stencils.base(i, j);
+            let old = |(di, dj): (i32, i32)| at([p + di, q + dj]);
             stencils.at(i, j).iter().map(|(offset, weight)| weight * sample(old(*offset), monomial)).sum()
         };
+        let finer = f64::from(stencils.dilation());
         let points = || (-4..5).flat_map(|i| (-4..5).map(move |j| [i, j]));
         let reproduces = |degree: usize| {
             monomials(degree).all(|monomial| {
                 points().all(|new| {
                     let [x, y] = at(new);
-                    (refined(new, monomial) - sample([x / 2.0, y / 2.0], monomial)).abs() < 1e-9
+                    (refined(new, monomial) - sample([x / finer, y / finer], monomial)).abs() < 1e-9
                 })
             })
         };
@@ -335,20 +338,50 @@ fn one_mid_edge_step() {
 
 /// Kobbelt's sqrt(3) scheme on regular meshes: vertex 2/3 and 1/18 for each neighbour, face 1/3 for each corner. Sum rules of
 /// order 3: on either coset the second moments are those of a circle, 1 in all by Euclid's measure, while the third ones of a triangle are not 0.
-#[test]
-fn the_sqrt3_scheme() {
+fn regular_of_sqrt3() -> Regular {
     let dilation = Dilation::new([[1, -1], [1, 2]]).unwrap();
     let ring: [Point; 6] = [[1, 0], [0, 1], [-1, 1], [-1, 0], [0, -1], [1, -1]];
     let outer = ring.map(|point| (dilation.image(point), rational(1, 18)));
     let coefficients =
         ring.map(|point| (point, rational(1, 3))).into_iter().chain(outer).chain([([0, 0], rational(2, 3))]);
-    let regular = Regular::of_mask(Mask::new(dilation, coefficients)).unwrap();
+    Regular::of_mask(Mask::new(dilation, coefficients)).unwrap()
+}
+
+#[test]
+fn the_sqrt3_scheme() {
+    let regular = regular_of_sqrt3();
     assert_eq!((regular.moments.sum_rules, regular.moments.reproduction), (3, Some(1)));
     assert_eq!(regular.straight.as_ref().map(|(mask, steps)| (mask.dilation, *steps)), Some((Dilation::whole(3), 2)));
     assert!(regular.spline.is_none() && regular.factors.directions.is_empty());
     // C2: Kobbelt 2000
     let Smoothness::AtLeast(2, proof) = &regular.smoothness else { panic!("{:?}", regular.smoothness) };
     assert_eq!(proof.all.as_ref().map(|(order, found)| (*order, found.steps)), Some((3, 2)));
+}
+
+/// The zoo: 4-8 is C4 with the directions of the Zwart-Powell element twice (Velho and Zorin 2001); mid-edge is that element (Peters and Reif
+/// 1997); sqrt(3) is C2 (Kobbelt 2000), of which the mask above is one step; Kobbelt's scheme of 1996 is the tensor product of the four-point scheme;
+/// midpoint subdivision of degree d is the B-spline of bi-degree (d, d) (Prautzsch and Chen 2011).
+#[test]
+fn the_zoo_on_regular_meshes() {
+    let four = |times: usize| [[1, 0], [0, 1], [1, 1], [1, -1]].map(|direction| (direction, times)).to_vec();
+    for (id, times, smooth, degree) in [("four-eight", 2, 4, 6), ("mid-edge", 1, 1, 2)] {
+        let own = regular(&open(id));
+        assert_eq!(own.factors.directions, four(times), "{id}");
+        assert_eq!(own.spline.as_ref().map(BoxSpline::degree), Some(degree), "{id}");
+        assert!(matches!(own.smoothness, Smoothness::Exactly(r, ..) if r == smooth), "{id}");
+    }
+    let two_steps = regular(&open("sqrt3"));
+    assert_eq!((two_steps.mask.dilation, two_steps.moments.sum_rules), (Dilation::whole(3), 3));
+    assert_eq!(two_steps.mask.coefficients, regular_of_sqrt3().straight.unwrap().0.coefficients);
+    assert_eq!(two_steps.smoothness.proved(), Some(2));
+    let four_point = line(-3, &[-1, 0, 9, 16, 9, 0, -1], 16);
+    let tensor = Mask::tensor(2, &four_point, &four_point).unwrap();
+    assert_eq!(regular(&open("kobbelt")).mask.coefficients, tensor.coefficients);
+    for degree in 2..=5_usize {
+        let scheme = open("midpoint").with_value("d", &degree.to_string()).unwrap();
+        let own = regular(&scheme);
+        assert_eq!(own.spline.and_then(|spline| spline.bidegree()), Some([degree, degree]));
+    }
 }
 
 /// Difference schemes alone, without the theorem on box splines, show the smoothness of B-splines of degrees up to 4.
