@@ -16,7 +16,7 @@ pub mod vocabulary;
 
 pub(crate) use check::class_size;
 pub use check::{RuleSum, SUM_TOLERANCE};
-pub use claim::{Claim, Quantity};
+pub use claim::{BoundaryClaim, BoundaryQuantity, Claim, Quantity};
 pub use evaluate::Place;
 pub use interval::Interval;
 pub use parse::{KEYS, MAX_FILE_BYTES};
@@ -163,6 +163,8 @@ pub struct RuleBook {
     pub rules: BTreeMap<RuleKind, Rule>,
     /// The boundary file whose rules hold where this one has none.
     pub like: Option<Box<RuleBook>>,
+    /// What is said of a boundary file; what is said of a scheme are [`Scheme::claims`].
+    pub claims: Vec<BoundaryClaim>,
     /// Whether every face of the meshes that it refines has four corners.
     pub quads_only: bool,
 }
