@@ -342,14 +342,21 @@ fn masks_survive_a_step_on_a_mesh() {
     });
 }
 
-/// The limit mask of a uniform cubic B-spline at a knot; a corner stays.
+/// The limit mask along a crease: of a cubic B-spline at a knot, by Hoppe et al. 1994 another beside irregular faces.
+fn crease_mask(here: &str, faces: usize) -> [(f64, &'static str); 2] {
+    let special = here.contains("hoppe-1994") && faces != 3;
+    if special { [(3.0 / 5.0, "3/5"), (1.0 / 5.0, "1/5")] } else { [(2.0 / 3.0, "2/3"), (1.0 / 6.0, "1/6")] }
+}
+
+/// Limit masks along a crease; a corner stays.
 #[test]
 fn limit_masks_are_the_known_ones() {
     each(|here, analysis| {
         let mut wanted: FanMask = match analysis.fan.kind() {
             FanKind::Crease { faces } => {
-                let end = |sector| (Label { sector, i: 1, j: 0 }, 1.0 / 6.0);
-                vec![(analysis.fan.centre(), 2.0 / 3.0), end(0), end(faces as u32)]
+                let [(own, _), (other, _)] = crease_mask(here, faces);
+                let end = |sector| (Label { sector, i: 1, j: 0 }, other);
+                vec![(analysis.fan.centre(), own), end(0), end(faces as u32)]
             }
             FanKind::Corner { .. } => vec![(analysis.fan.centre(), 1.0)],
             FanKind::Dart { .. } => return,
@@ -409,15 +416,16 @@ fn tangents_are_what_deep_refinement_leaves() {
         for (axis, e) in tangents.eigenvalues.iter().enumerate() {
             let left = spread(analysis, &tangents.masks[axis]);
             let right = DVector::from_iterator(left.len(), tangents.net.iter().map(|point| point[axis]));
-            let (steps, exact) = if tangents.jordan[axis] == 1 { (600, 1e-9) } else { (20_000, 1e-3) };
+            let (steps, exact) = if tangents.jordan[axis] == 1 { (4_000, 1e-9) } else { (20_000, 1e-3) };
             let (start, left_over) = refined(analysis, Parity::of_part(e.frequency), e.value.re, steps);
             let seen = &left_over / left_over.amax() * left.dot(&start).signum();
             let wanted = &right / right.amax();
             assert!((seen - wanted).amax() < exact, "{here} {axis}");
         }
     });
-    // Loop's and Warren's: 6 creases, 3 corners, 6 darts each; Catmull and Clark's: 4, 2, 6
-    assert_eq!(planes, 2 * (6 + 3 + 6) + (4 + 2 + 6));
+    // cubic: Loop's and Warren's: 6 creases, 3 corners, 6 darts each; Catmull and Clark's: 4, 2, 6. Hoppe et al.: all but the crease of
+    // two faces; Biermann et al.: all
+    assert_eq!(planes, 2 * (6 + 3 + 6) + (4 + 2 + 6) + 2 * (7 + 5 + 6) + 3 * (8 + 5 + 6));
 }
 
 /// On a fan that lies in a plane, counter-clockwise, with a little noise: the normal is that of the plane.
@@ -564,7 +572,11 @@ fn exact_and_approximate_numbers_agree() {
     each(|here, analysis| {
         let (scheme, book) = open(here.split(' ').next().unwrap());
         let analyzer = BoundaryAnalyzer::new(&scheme, &book).unwrap();
-        let exact = analyzer.exact(&analysis.local).unwrap();
+        let Ok(exact) = analyzer.exact(&analysis.local) else {
+            // fields of many cosines
+            assert!(here.contains("biermann") && analysis.fan.sectors() >= 7, "{here}");
+            return;
+        };
         let counted: usize = exact.eigenvalues.iter().map(|e| e.algebraic.unwrap()).sum();
         assert_eq!(counted, analysis.local.size(), "{here}");
         for e in &analysis.spectrum.eigenvalues {
@@ -581,9 +593,9 @@ fn exact_and_approximate_numbers_agree() {
                 .iter()
                 .all(|(label, weight)| { (weight.value.midpoint_f64() - mask[index(analysis, *label)]).abs() < 1e-14 })
         );
-        if matches!(analysis.fan.kind(), FanKind::Crease { .. }) {
+        if let FanKind::Crease { faces } = analysis.fan.kind() {
             let words: BTreeSet<String> = known.iter().map(|(_, w)| w.exact.as_ref().unwrap().text.clone()).collect();
-            assert_eq!(words, BTreeSet::from(["1/6".to_string(), "2/3".to_string()]), "{here}");
+            assert_eq!(words, crease_mask(here, faces).map(|(_, words)| words.to_string()).into(), "{here}");
         }
     });
 }
@@ -683,13 +695,24 @@ fn normals_of_deep_faces_converge_exactly_where_there_is_a_plane() {
     let (mut slowly, mut apart) = (0, 0);
     each(|here, analysis| {
         // where the leading eigenvalues are far apart, rounding of the larger part soon covers the smaller
-        let parted = analysis.tangent_masks.as_ref().map_or(1.2, |own| {
-            let [a, b] = own.eigenvalues.map(|e| e.modulus());
-            a.max(b) / a.min(b)
-        });
-        let steps = ((1e9_f64.ln() / parted.ln().max(1e-9)) as usize).min(120);
+        let parted = analysis.tangent_masks.as_ref().map_or_else(
+            |_| {
+                let moduli: Vec<f64> = analysis.spectrum.after_one().map(Eigenvalue::modulus).take(3).collect();
+                moduli[0] / moduli[2]
+            },
+            |own| {
+                let [a, b] = own.eigenvalues.map(|e| e.modulus());
+                a.max(b) / a.min(b)
+            },
+        );
+        let steps = ((1e9_f64.ln() / parted.ln().max(1e-9)) as usize).min(400);
         let [early, late] = [steps / 2, steps].map(|steps| deep_normals(analysis, 3, steps));
         let Ok(tangents) = &analysis.tangent_masks else {
+            if analysis.tangent_masks.as_ref().is_err_and(|why| why.contains("2 eigenvectors")) {
+                // both faces have one normal, whatever the surface has beside it
+                assert!(here.contains("hoppe-1994 Crease { faces: 2 }"), "{here}");
+                return;
+            }
             assert!(widest(&late) > 0.8 * widest(&early) && widest(&late) > 1e-3, "{here}: {}", widest(&late));
             apart += 1;
             return;
@@ -724,7 +747,11 @@ fn reports_tell_the_boundary_in_every_form() {
     assert!(plain.iter().all(|(_, text)| !text.contains("At a boundary") && !text.contains("\"boundary\"")));
     assert_eq!(report_of::terminal(&study.report.boundary), "");
     let counted = std::cell::Cell::new(0);
-    let found = report_of::boundary(&scheme, &[1, 6, 7], 10, &|| counted.set(counted.get() + 1)).unwrap();
+    let found =
+        report_of::boundary(&scheme, &report_of::Variant::all_of(&scheme).unwrap()[..1], &[1, 6, 7], 10, &|| {
+            counted.set(counted.get() + 1)
+        })
+        .unwrap();
     let places: Vec<(&str, usize)> = found.iter().map(|own| (own.kind, own.faces)).collect();
     let both = ["crease", "corner"].into_iter().flat_map(|kind| [1, 6, 7].map(|k| (kind, k)));
     assert_eq!(places, both.chain([("dart", 6), ("dart", 7)]).collect::<Vec<_>>());
@@ -751,7 +778,7 @@ fn reports_tell_the_boundary_in_every_form() {
     assert_eq!(words.lines().count(), 3 + found.len(), "{words}");
     assert!(words.contains("no: two modes that vanish along the boundary"), "{words}");
     let csv = report_of::boundary_csv(&found);
-    assert!(csv.lines().all(|line| line.matches(',').count() == 9), "{csv}");
+    assert!(csv.lines().all(|line| line.matches(',').count() == 10), "{csv}");
     let eigenvalues = csv.lines().filter(|line| line.contains(",eigenvalue,")).count();
     assert_eq!(eigenvalues, found.iter().map(|own| own.size).sum::<usize>());
     study.report.add_boundary(found);
@@ -763,7 +790,7 @@ fn reports_tell_the_boundary_in_every_form() {
     };
     has(".md", "## At a boundary");
     has(".md", "centre 2/3, ring[0] 1/6, ring[6] 1/6");
-    has(".md", "0.5000000000 = 1/2 (2 times, Jordan block of size 2)");
+    has(".md", "0.5000000000 = 1/2 (sine mode 2, 2 times, Jordan block of size 2)");
     has(".tex", "\\subsection*{Masks at a boundary}");
     has(".json", "\"variant\": \"cubic\"");
 }

@@ -1,7 +1,7 @@
 //! Does the README say what the program does: keys of the format, commands, the JSON contract?
 #![allow(clippy::unwrap_used)]
 
-use eigenring::report::boundary::boundary;
+use eigenring::report::boundary::{Variant, boundary};
 use eigenring::report::{Study, json};
 use eigenring::scheme::vocabulary::{Arrival, RuleKind, Vocabulary};
 use eigenring::scheme::{KEYS, Scheme, catalogue};
@@ -70,7 +70,7 @@ fn the_json_contract_names_every_key() {
         let scheme = catalogue::open(id).unwrap().unwrap();
         let mut study = Study::of(&scheme, &[3, 5], false, &|| ()).unwrap();
         if !scheme.boundary.is_empty() {
-            let found = boundary(&scheme, &[3, 7, 25], 10, &|| ()).unwrap();
+            let found = boundary(&scheme, &Variant::all_of(&scheme).unwrap(), &[3, 7, 25], 10, &|| ()).unwrap();
             study.report.add_boundary(found);
         }
         keys_of(&serde_json::from_str(&json(&study.report).unwrap()).unwrap(), &mut keys);

@@ -78,7 +78,7 @@ pub enum NotRefinable {
     /// A point that can't be made.
     Obstacle(Obstacle),
     /// The same because of its surroundings: at a vertex, or at the edge or in the face of these vertices.
-    At(Vec<u32>, Obstacle),
+    At(Vec<u32>, Box<Obstacle>),
 }
 
 impl fmt::Display for NotRefinable {
@@ -134,7 +134,7 @@ pub(super) fn standing_at(mesh: &HalfEdgeMesh, birth: Birth, obstacle: Obstacle)
         Birth::Edge(h) | Birth::Third(h) => vec![mesh.origin(h), mesh.target(h)],
         Birth::Face(h) => mesh.around_face(h).into_iter().map(|h| mesh.origin(h)).collect(),
     };
-    NotRefinable::At(at, obstacle)
+    NotRefinable::At(at, Box::new(obstacle))
 }
 
 impl From<NotAMesh> for NotRefinable {

@@ -13,7 +13,9 @@ use crate::analysis::spectrum::Eigenvalue;
 use crate::mesh::{FanKind, Label};
 use crate::refine::{Obstacle, OrbitNames, Refinement, lattice_of};
 use crate::scheme::{RuleBook, Scheme, catalogue};
-use crate::verdicts::{Decision, Evidence, Verdict, bound, c1_up_to_boundary};
+use crate::verdicts::{
+    ClaimCheck, Decision, Evidence, Outcome, Verdict, bound, c1_up_to_boundary, check_boundary_claims,
+};
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -60,6 +62,8 @@ pub struct BoundaryReport {
     pub why_not: Vec<String>,
     /// Whether the surface is C1 up to the boundary.
     pub verdict: Verdict,
+    /// What the boundary file claims for this vertex, compared with the analysis.
+    pub claims: Vec<ClaimCheck>,
     /// A power of ten above the approximate residuals of all right and left vectors that were computed, and their number.
     pub residual: ResidualReport,
 }
@@ -158,7 +162,10 @@ pub fn boundary(
             for (variant, analyzer) in &analyzers {
                 let analysis = analyzer.at(kind).map_err(NoReport::of(scheme))?;
                 let exact = analyzer.exact(&analysis.local);
-                reports.push(report(variant, &analysis, exact, &names, digits));
+                let mut own = report(variant, &analysis, exact, &names, digits);
+                let claims = check_boundary_claims(&variant.book, &analysis, &own.verdict);
+                own.claims = claims.map_err(|fault| NoReport::Faults(variant.book.faults(vec![fault])))?;
+                reports.push(own);
             }
             done();
         }
@@ -196,6 +203,7 @@ fn report(
             }
         },
         verdict: c1_up_to_boundary(analysis, known.as_ref()),
+        claims: vec![],
         arithmetic: if known.is_some() { "exact" } else { "approximate" },
         why_not_exact,
         limit_mask: analysis.limit_mask.as_ref().ok().map(|mask| {
@@ -305,7 +313,32 @@ fn net(analysis: &BoundaryAnalysis, own: &TangentMasks) -> Vec<PointReport> {
 
 /// The tables of a report.
 pub(super) fn tables(reports: &[BoundaryReport]) -> Vec<Table> {
-    if reports.is_empty() { vec![] } else { vec![overview(reports), masks(reports), eigenvalues(reports)] }
+    if reports.is_empty() {
+        return vec![];
+    }
+    let mut tables = vec![overview(reports), masks(reports), eigenvalues(reports)];
+    tables.extend(reports.iter().any(|own| !own.claims.is_empty()).then(|| claims(reports)));
+    tables
+}
+
+fn claims(reports: &[BoundaryReport]) -> Table {
+    let row = |at: usize, claim: &ClaimCheck| {
+        let value = claim.equals.clone().unwrap_or_default();
+        let cells = [claim.what.clone(), value, in_words(claim.outcome).to_string(), claim.seen.clone()];
+        (at, cells.into_iter().map(Cell::from).collect::<Vec<Cell>>())
+    };
+    let rows = reports.iter().enumerate().flat_map(|(at, own)| own.claims.iter().map(move |claim| row(at, claim)));
+    let note = "What boundary files claim, with their sources, compared with what was found at each vertex (to 1e-12; approximate).";
+    let title = ("Claims of boundary files", note.to_string());
+    table(reports, title, &["claim", "value", "outcome", "seen"], rows)
+}
+
+fn in_words(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Agrees => "agrees",
+        Outcome::Disagrees => "disagrees",
+        Outcome::Undecided => "undecided",
+    }
 }
 
 /// The names of the boundary files, in order.
@@ -527,6 +560,15 @@ pub fn terminal(reports: &[BoundaryReport]) -> String {
         let rules = if width > 0 { own.variant.as_str() } else { "" };
         let _ =
             writeln!(text, "{:>8} {:>4} {rules:<width$}{:>6} {a:>28} {b:>28}  {plane}", own.kind, own.faces, own.size);
+    }
+    for own in reports {
+        for claim in own.claims.iter().filter(|claim| claim.outcome == Outcome::Disagrees) {
+            let _ = writeln!(
+                text,
+                "claim '{}' of `{}` disagrees at {} faces: {}",
+                claim.what, own.variant, own.faces, claim.seen
+            );
+        }
     }
     text
 }

@@ -115,7 +115,9 @@ mod tests {
         }
         for listed in BOUNDARIES {
             for mesh in ["triangles", "quads", "polygons"] {
-                boundary(listed.id, mesh).unwrap().unwrap_or_else(|faults| panic!("{faults}"));
+                let book = boundary(listed.id, mesh).unwrap().unwrap_or_else(|faults| panic!("{faults}"));
+                let claimed = book.claims.iter().flat_map(|claim| &claim.sources).cloned();
+                assert!(book.all_sources().into_iter().chain(claimed).all(|key| sources().contains_key(&key)));
             }
         }
     }

@@ -114,23 +114,42 @@ impl RuleBook {
         Some(value + (end - value) * 0.375)
     }
 
-    /// A crease looks the same from both of its sides: `ring[i]` and `ring[k-i]` weigh the same.
+    /// A crease looks the same from both of its sides, and an edge from both of its own: `ring[i]` and `ring[k-i]`, or `ring[-1]` and
+    /// `ring[1]`, weigh the same.
     fn check_both_sides(&self, rule: &Rule, counts: &[usize]) -> Result<(), Fault> {
-        if rule.kind != RuleKind::VertexCrease {
+        let from_end = RuleKind::FROM_ENDS.contains(&rule.kind);
+        if rule.kind != RuleKind::VertexCrease && !from_end {
             return Ok(());
         }
-        for count in counts.iter().map(|count| *count as i64) {
+        for count in counts.iter().map(|count| *count as i64).filter(|count| *count >= least_count(rule.kind)) {
             let place = Place::<f64>::at(rule.kind.variable(), count);
-            let mut ring = vec![0.0; count as usize + 1];
-            for entry in rule.entries.iter().filter(|entry| !entry.position.once) {
-                for (index, weight) in self.weights(entry, ring.len(), &place)? {
-                    ring[index] += weight;
+            let names: BTreeSet<&str> = rule.entries.iter().map(|entry| entry.position.name.as_str()).collect();
+            for name in names {
+                let own = rule.entries.iter().filter(|entry| entry.position.name == name && !entry.position.once);
+                let mut weights = vec![0.0; own.clone().map(|e| class_size(e, rule.kind, count)).max().unwrap_or(0)];
+                let faces = own.clone().any(|entry| entry.position.births() == Some(RuleKind::Face));
+                for entry in own {
+                    for (index, weight) in self.weights(entry, weights.len(), &place)? {
+                        weights[index] += weight;
+                    }
                 }
-            }
-            if ring.iter().zip(ring.iter().rev()).any(|(a, b)| (a - b).abs() > SUM_TOLERANCE) {
-                let fault =
-                    Fault::at(rule.span.clone(), "[vertex.crease] tells left from right", format!("at k = {count}"));
-                return Err(fault.hint("ring[0] and ring[k] weigh the same"));
+                let size = weights.len();
+                // points from one sharp edge to the other; edges around an end; the faces between these
+                let image = |at: usize| match () {
+                    () if from_end && !faces => (size - at) % size,
+                    () => size - 1 - at,
+                };
+                if (0..size).any(|at| (weights[at] - weights[image(at)]).abs() > SUM_TOLERANCE) {
+                    let at = rule.kind.variable().map_or(String::new(), |name| format!("at {name} = {count}"));
+                    let fault =
+                        Fault::at(rule.span.clone(), format!("[{}] tells left from right", rule.kind.name()), at);
+                    let hint = if from_end {
+                        "ring[-1] and ring[1] weigh the same, and so do new faces[-1] and [0]"
+                    } else {
+                        "ring[0] and ring[k] weigh the same"
+                    };
+                    return Err(fault.hint(hint));
+                }
             }
         }
         Ok(())

@@ -68,3 +68,56 @@ pub struct Claim {
     /// Where it stands.
     pub span: Range<usize>,
 }
+
+/// What a claim of a boundary file is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BoundaryQuantity {
+    /// The largest eigenvalue after 1.
+    Subdominant,
+    /// The next one, which may be equal to it.
+    Second,
+    /// The weight of the vertex itself in its limit mask.
+    LimitCentre,
+    /// That limit surfaces are C1 up to the boundary for generic control points.
+    C1,
+}
+
+impl BoundaryQuantity {
+    /// The quantity of a claim's `what`.
+    pub fn parse(what: &str) -> Option<BoundaryQuantity> {
+        match what {
+            "subdominant" => Some(BoundaryQuantity::Subdominant),
+            "second" => Some(BoundaryQuantity::Second),
+            "limit centre" => Some(BoundaryQuantity::LimitCentre),
+            "C1" => Some(BoundaryQuantity::C1),
+            _ => None,
+        }
+    }
+
+    /// What `what` may say, for messages.
+    pub const WORDS: &str = "`subdominant`, `second`, `limit centre`, `C1`";
+
+    /// Whether the claim must give a value under `equals`.
+    pub fn has_value(self) -> bool {
+        self != BoundaryQuantity::C1
+    }
+}
+
+/// What somebody says about a boundary file at a kind of vertex.
+#[derive(Clone, Debug)]
+pub struct BoundaryClaim {
+    /// crease, corner or dart.
+    pub at: String,
+    /// As written under `what`.
+    pub what: String,
+    /// What it is about.
+    pub quantity: BoundaryQuantity,
+    /// The numbers of faces that it is about; `None` for all.
+    pub condition: Option<Condition>,
+    /// The value claimed, a formula in k (at a dart n), parameters and names.
+    pub equals: Option<Placed>,
+    /// Who says so.
+    pub sources: Vec<String>,
+    /// Where it stands.
+    pub span: Range<usize>,
+}

@@ -1,7 +1,7 @@
 //! What are the weights of a rule at this valence, in this world of numbers?
 
 use super::formula::{Condition, Failure, Formula, Names};
-use super::{Cases, Claim, Entry, Pick, Placed, RuleBook, Scheme, Weights};
+use super::{BoundaryClaim, Cases, Claim, Entry, Pick, Placed, RuleBook, Scheme, Weights};
 use crate::fault::Fault;
 use crate::numbers::{Laurent, Number, Trouble};
 use std::cell::RefCell;
@@ -218,6 +218,17 @@ impl RuleBook {
         let message = format!("{given} weights for {wanted} points of `{}`{at}", entry.position.name);
         Fault::at(span.clone(), message, format!("{given} weights"))
             .hint("give one weight for each point, or one formula in j")
+    }
+}
+
+impl RuleBook {
+    /// Whether a claim of a boundary file is made for a number of faces, which its condition calls `variable`.
+    ///
+    /// # Errors
+    /// When its condition has no value there.
+    pub fn is_claimed_at(&self, claim: &BoundaryClaim, variable: &'static str, faces: usize) -> Result<bool, Fault> {
+        let Some(condition) = &claim.condition else { return Ok(true) };
+        self.holds(condition, &claim.span, Some(variable), faces as i64)
     }
 }
 

@@ -17,7 +17,7 @@ pub mod vocabulary;
 
 pub(crate) use check::class_size;
 pub use check::{RuleSum, SUM_TOLERANCE};
-pub use claim::{Claim, Quantity};
+pub use claim::{BoundaryClaim, BoundaryQuantity, Claim, Quantity};
 pub use classification::Classification;
 pub use evaluate::Place;
 pub use interval::Interval;
@@ -194,6 +194,8 @@ pub struct RuleBook {
     pub like: Option<Box<RuleBook>>,
     /// The number of corners of every face that a rule is told around, where it is the same for all.
     pub face_corners: Option<i64>,
+    /// What is said of a boundary file; what is said of a scheme are [`Scheme::claims`].
+    pub claims: Vec<BoundaryClaim>,
 }
 
 impl RuleBook {

@@ -4,9 +4,11 @@
 //! only; what rests on floating numbers is *undecided*, with the evidence named and what is missing.
 
 mod boundary;
+mod boundary_claims;
 mod claims;
 
 pub use boundary::c1_up_to_boundary;
+pub use boundary_claims::check_boundary_claims;
 pub use claims::{ClaimCheck, Outcome, check_claims};
 
 use crate::analysis::Analysis;

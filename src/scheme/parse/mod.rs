@@ -3,6 +3,7 @@
 //! TOML 1.0 with places kept. Every fault is collected and reading goes on, so that a user sees all of them at once. The
 //! keys are listed in [`KEYS`]; the README's table says what they mean, and a test holds the two together.
 
+mod boundary_claims;
 mod claims;
 mod names;
 mod passes;
@@ -22,7 +23,7 @@ use toml::de::{DeTable, DeValue};
 pub const MAX_FILE_BYTES: usize = 1 << 16;
 
 /// Every key of a scheme file and of a boundary file, as the README's table lists them.
-pub const KEYS: [&str; 28] = [
+pub const KEYS: [&str; 29] = [
     "name",
     "mesh",
     "split",
@@ -51,12 +52,13 @@ pub const KEYS: [&str; 28] = [
     "edge.from-crease-end, edge.from-corner-end, edge.from-dart-end",
     "like",
     "triangles, quads",
+    "claims.at",
 ];
 
 const SCHEME_KEYS: [&str; 12] =
     ["name", "mesh", "split", "source", "boundary", "parameters", "let", "vertex", "edge", "face", "corner", "pass"];
-const BOUNDARY_KEYS: [&str; 9] =
-    ["name", "source", "like", "parameters", "let", "vertex", "edge", ON_TRIANGLES, ON_QUADS];
+const BOUNDARY_KEYS: [&str; 10] =
+    ["name", "source", "like", "parameters", "let", "vertex", "edge", ON_TRIANGLES, ON_QUADS, "claims"];
 /// The tables of a boundary file for one kind of mesh only.
 const ON_TRIANGLES: &str = "triangles";
 const ON_QUADS: &str = "quads";
@@ -190,16 +192,19 @@ impl<'t> Reader<'t> {
     fn boundary(&mut self, origin: &str, mesh: &str) -> Option<RuleBook> {
         let top = self.top()?;
         let mut items = self.items(top.get_ref(), &BOUNDARY_KEYS, "a boundary file");
-        let on_mesh = if mesh == "triangles" { ON_TRIANGLES } else { ON_QUADS };
-        if let Some((value, span)) = self.find(&items, on_mesh) {
-            match value {
-                DeValue::Table(table) => items.extend(self.items(table, &["vertex", "edge"], "rules for one mesh")),
-                _ => self.wrong_type(&span, "a table of rules", value),
+        for (key, holds) in [(ON_TRIANGLES, mesh == "triangles"), (ON_QUADS, mesh != "triangles")] {
+            match self.find(&items, key) {
+                Some((DeValue::Table(table), _)) if holds => {
+                    items.extend(self.items(table, &["vertex", "edge"], "rules for one mesh"));
+                }
+                None | Some((DeValue::Table(_), _)) => {}
+                Some((value, span)) => self.wrong_type(&span, "a table of rules", value),
             }
         }
         let like = self.like(&items, mesh);
         let book = self.book(&items, origin, Some(mesh), true)?;
-        Some(RuleBook { like, ..book })
+        let claims = self.boundary_claims(&items, &book);
+        Some(RuleBook { like, claims, ..book })
     }
 
     /// The boundary file of the catalogue that another one is like.
@@ -244,6 +249,7 @@ impl<'t> Reader<'t> {
                 _ => None,
             },
             like: None,
+            claims: vec![],
         };
         book.rules = self.rules(&book, items, mesh, boundary);
         Some(book)

@@ -79,6 +79,7 @@ impl Reader<'_> {
             self.unknown_position(kind, mesh, name, span);
             return None;
         };
+        self.check_picks_from_end(kind, picks.as_deref(), &span);
         let mut known: BTreeSet<&str> = kind.variable().into_iter().collect();
         if !position.once {
             known.insert("j");
@@ -124,6 +125,18 @@ impl Reader<'_> {
         let fault = Fault::at(span.clone(), format!("`{key}` doesn't pick points of a class"), "");
         self.faults.push(fault.hint("write \"ring[-1,1]\": the name, then whole numbers in brackets"));
         None
+    }
+
+    /// A rule told from an end has the edge itself (0) and those beside it (-1 and 1).
+    fn check_picks_from_end(&mut self, kind: RuleKind, picks: Option<&[Pick]>, span: &Range<usize>) {
+        let most = if kind == RuleKind::CreaseFromIrregularEnd { 0 } else { 1 };
+        let far = |pick: &Pick| !matches!(pick, Pick::Index(index) if index.abs() <= most);
+        if RuleKind::FROM_ENDS.contains(&kind) && picks.is_some_and(|picks| picks.iter().any(far)) {
+            let known =
+                if most == 0 { "only 0, the edge itself" } else { "0, the edge itself, and -1 and 1 beside it" };
+            let message = format!("[{}] knows few points of a class", kind.name());
+            self.faults.push(Fault::at(span.clone(), message, "too far").hint(format!("it knows {known}")));
+        }
     }
 
     pub(super) fn unknown_position(&mut self, kind: RuleKind, mesh: Option<&str>, name: &str, span: Range<usize>) {
