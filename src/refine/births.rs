@@ -3,7 +3,7 @@
 //! An edge of sharpness s is a crease for s >= 1 and smooth for s = 0; in between its point is s times the one and 1 - s
 //! times the other. A vertex follows the rule for all its creases as far as those that end within this step last, by the mean of their
 //! sharpness, and the rule without them for the rest (DeRose, Kass and Truong 1998, with the mean taken over the creases that end). So does
-//! an edge that has a rule from its ends, for the creases at these.
+//! a smooth edge that has a rule from its ends, for the creases at these.
 
 use super::{Obstacle, Refinement, Row, add_scaled, collected};
 use crate::mesh::{Birth, Connectivity, HalfEdgeMesh, Tagged, Tags, first_corner};
@@ -23,7 +23,8 @@ impl Refinement<'_, f64> {
             Birth::Face(edge) => return self.face_row(mesh, edge),
             Birth::Corner(edge) => return self.corner_row(mesh, edge),
             Birth::Edge(edge) => lasting(std::iter::once(tags.sharpness(edge))).or_else(|| {
-                let told_from_ends = self.has_rules_from_sharp_ends() && !tags.creases().is_empty();
+                let smooth = tags.sharpness(edge) == 0.0 && !mesh.is_sharp(edge);
+                let told_from_ends = smooth && self.has_rules_from_sharp_ends() && !tags.creases().is_empty();
                 told_from_ends.then(|| lasting([edge, mesh.twin(edge)].into_iter().flat_map(at_vertex)))?
             }),
             Birth::Vertex(edge) if tags.creases().is_empty() => return self.vertex_row(&seen(0.0), edge),
