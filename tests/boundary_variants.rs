@@ -9,7 +9,7 @@ use eigenring::analysis::verify::Verifier;
 use eigenring::mesh::{
     Connectivity, Crease, FanKind, HalfEdgeMesh, Label, PolygonSoup, Tagged, Tags, edge_between, shapes,
 };
-use eigenring::refine::{Level, NotRefinable, Obstacle, Refinement, Refiner, Route, Row, most_ulps};
+use eigenring::refine::{Level, NotRefinable, Obstacle, Refinement, Refiner, Route, Row, cycle_of, most_ulps};
 use eigenring::scheme::{RuleBook, Scheme, catalogue};
 use eigenring::verdicts::{Decision, Evidence, Outcome, c1_up_to_boundary, check_boundary_claims};
 use std::f64::consts::{PI, TAU};
@@ -25,6 +25,8 @@ fn open(id: &str, rules: &str) -> (Scheme, RuleBook) {
 /// Every scheme with every boundary file that it names.
 fn variants() -> Vec<(String, Scheme, RuleBook)> {
     let schemes = catalogue::SCHEMES.iter().map(|listed| catalogue::open(listed.id).unwrap().unwrap());
+    // sqrt3 cuts its boundary into thirds, and there is no analysis there
+    let schemes = schemes.filter(|scheme| cycle_of(scheme).unwrap().dilation == 2);
     let of = |scheme: Scheme| {
         let named = |rules: &String| {
             let book = catalogue::boundary(rules, &scheme.mesh).unwrap().unwrap();
@@ -199,7 +201,7 @@ fn edges_from_a_crease_end_have_the_weights_of_biermann_levin_and_zorin() {
 fn half_is_a_double_subdominant_by_biermann_levin_and_zorin() {
     for id in ["loop", "loop-warren", "catmull-clark"] {
         let darts = [3, 4, 5, 6, 8].map(|faces| FanKind::Dart { faces });
-        for kind in (2..=8).map(crease).chain([12].map(crease)).chain(darts) {
+        for kind in (2..=8).map(crease).chain(darts) {
             let (analysis, exact) = analysed(id, BLZ, kind);
             for parity in Parity::BOTH {
                 assert_eq!(rational(&exact, "1/2", parity), Some((1, 1)), "{id} {kind:?}");

@@ -3,7 +3,7 @@
 //! An edge of sharpness s is a crease for s >= 1 and smooth for s = 0; in between its point is s times the one and 1 - s
 //! times the other. A vertex follows the rule for all its creases as far as those that end within this step last, by the mean of their
 //! sharpness, and the rule without them for the rest (DeRose, Kass and Truong 1998, with the mean taken over the creases that end). So does
-//! an edge that has a rule from its ends, for the creases at these.
+//! a smooth edge that has a rule from its ends, for the creases at these.
 
 use super::pass::{add_scaled, collected};
 use super::{Obstacle, Pass, Row};
@@ -26,7 +26,8 @@ impl Pass<'_, f64> {
             Birth::Kept(edge) => return Ok(vec![(mesh.origin(edge), 1.0)]),
             Birth::Third(edge) => return self.third_row(mesh, edge),
             Birth::Edge(edge) => lasting(std::iter::once(tags.sharpness(edge))).or_else(|| {
-                let told_from_ends = self.has_rules_from_sharp_ends() && !tags.creases().is_empty();
+                let smooth = tags.sharpness(edge) == 0.0 && !mesh.is_sharp(edge);
+                let told_from_ends = smooth && self.has_rules_from_sharp_ends() && !tags.creases().is_empty();
                 told_from_ends.then(|| lasting([edge, mesh.twin(edge)].into_iter().flat_map(at_vertex)))?
             }),
             Birth::Vertex(edge) if tags.creases().is_empty() => return self.vertex_row(&seen(0.0), edge),

@@ -192,7 +192,7 @@ impl RuleBook {
 
     fn indices<W>(&self, entry: &Entry, size: usize, place: &Place<W>) -> Result<Vec<usize>, Fault> {
         let Some(picks) = &entry.picks else { return Ok((0..size).collect()) };
-        let cyclic = place.variable != Some("k") || !entry.position.is_open();
+        let cyclic = !entry.position.is_open();
         let index = |pick: &Pick| {
             let index = if let Pick::Index(index) = pick { *index } else { place.count };
             if cyclic {

@@ -209,9 +209,9 @@ pub struct Position {
 }
 
 impl Position {
-    /// Whether its points run from one sharp edge to another, so that counting does not go round.
+    /// Whether its points lie along one side of a sharp edge, or run from one to another, so that counting does not go round.
     pub fn is_open(&self) -> bool {
-        self.around.contains(&RuleKind::VertexCrease)
+        [RuleKind::VertexCrease, RuleKind::CreaseThird].iter().any(|kind| self.around.contains(kind))
     }
 
     /// Whether its points are made by the same step.

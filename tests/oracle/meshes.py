@@ -73,7 +73,21 @@ W = {
     "butterfly n = 4, 2": -1 / 8, "butterfly 1/4": 1 / 4, "butterfly cos": 1, "butterfly cos 2": 1 / 2,
     "crease vertex": 3 / 4, "crease neighbour": 1 / 8, "crease edge": 1 / 2, "corner": 1, "sharpness of a child": 1,
     "blend of an edge": 1, "blend of a vertex": 1,
+    "hoppe special": 3 / 8, "hoppe other": 5 / 8, "blz loop": 1 / 2, "blz catmull-clark": 3 / 8, "blz cos": 1 / 4,
+    "blz ends": 3 / 4, "blz loop others": 1 / 8, "blz catmull-clark others": 1 / 4,
 }
+
+# Boundary rules other than cubic B-splines: told after a plus sign, loop+hoppe-1994.
+HOPPE, BLZ = "hoppe-1994", "biermann-levin-zorin-2000"
+VARIANTS = (f"loop+{HOPPE}", f"loop+{BLZ}", f"loop-warren+{BLZ}", f"catmull-clark+{BLZ}")
+
+
+def base(scheme):
+    return scheme.split("+")[0]
+
+
+def rules_of(scheme):
+    return scheme.split("+")[1] if "+" in scheme else None
 
 TRIANGLES = ("loop", "loop-warren", "modified-butterfly")
 PRIMAL = ("loop", "loop-warren", "catmull-clark", "modified-butterfly")
@@ -192,6 +206,90 @@ def edge_with_creases(mesh, e, smooth):
     return sharp if s >= 1 else mixed(s * W["blend of an edge"], sharp, smooth())
 
 
+class Ends:
+    """What is special at the ends of edges, where edges beyond a sharpness are creases."""
+
+    def __init__(self, mesh, beyond, regular):
+        self.mesh, self.beyond, self.regular, self.fans = mesh, beyond, regular, mesh.fans()
+
+    def sharp(self, e):
+        return self.mesh.sharpness[e] > self.beyond
+
+    def sides(self, v):
+        """Lists of edges from one crease to the next, both included, with nothing where the boundary is open."""
+        spokes, _ = self.fans[v]
+        cuts = [i for i, e in enumerate(spokes) if self.sharp(e)]
+        runs = zip(cuts, cuts[1:]) if self.mesh.is_boundary(v) else zip(cuts, cuts[1:] + [cuts[0] + len(spokes)] if cuts else [])
+        return [[spokes[i % len(spokes)] for i in range(i, j + 1)] for i, j in runs]
+
+    def kind(self, v):
+        count = sum(self.sharp(e) for e in self.mesh.at[v])
+        if count > 2 or count == 2 and v in self.mesh.corners:
+            return "corner"
+        if v in self.mesh.corners:
+            return "cone"
+        return ("smooth", "dart", "crease")[count]
+
+    def is_special(self, v):
+        return self.kind(v) in ("corner", "cone") or any(len(side) - 1 != self.regular // 2 for side in self.sides(v))
+
+    def theta(self, v, e):
+        kind = self.kind(v)
+        if kind == "dart":
+            return 2 * math.pi / len(self.mesh.at[v])
+        if kind not in ("crease", "corner"):
+            return None
+        side = next(side for side in self.sides(v) if e in side[1:-1])
+        return (math.pi if kind == "crease" else math.pi / 2) / (len(side) - 1)
+
+
+def edge_by_hoppe(ends, e, smooth):
+    a, b = ends.mesh.ends[e]
+    if not ends.sharp(e) or "dart" in (ends.kind(a), ends.kind(b)):
+        return smooth()
+    if ends.is_special(a) == ends.is_special(b):
+        return [(a, W["crease edge"]), (b, W["crease edge"])]
+    special, other = (a, b) if ends.is_special(a) else (b, a)
+    return [(special, W["hoppe special"]), (other, W["hoppe other"])]
+
+
+def edge_by_blz(ends, e, smooth, scheme, others):
+    """3/4 - gamma and gamma at the ends, from each tagged end; `others` is the part that is not at the ends."""
+    if ends.sharp(e):
+        return [(p, W["crease edge"]) for p in ends.mesh.ends[e]]
+    found = []
+    for v in ends.mesh.ends[e]:
+        theta = ends.theta(v, e)
+        if theta is not None:
+            gamma = W[f"blz {'catmull-clark' if scheme == 'catmull-clark' else 'loop'}"] - W["blz cos"] * math.cos(theta)
+            found.append([(v, W["blz ends"] - gamma), (ends.mesh.other(e, v), gamma)] + others(e))
+    return [(p, w / len(found)) for row in found for p, w in row] if found else smooth()
+
+
+def edges_with_rules(mesh, scheme, smooth, others):
+    """The rows of all edges, by the rules that the scheme's name tells."""
+    rules = rules_of(scheme)
+    if rules is None:
+        return [edge_with_creases(mesh, e, lambda: smooth(e)) for e in range(len(mesh.ends))]
+    views = [Ends(mesh, beyond, 4 if base(scheme) == "catmull-clark" else 6) for beyond in (0, 1)]
+
+    def row(e, ends):
+        if rules == HOPPE:
+            return edge_by_hoppe(ends, e, lambda: smooth(e))
+        return edge_by_blz(ends, e, lambda: smooth(e), base(scheme), others)
+
+    rows = []
+    for e in range(len(mesh.ends)):
+        s = mesh.sharpness[e]
+        if s == 0:
+            # of the creases at its ends those that end within this step, on average
+            near = [mesh.sharpness[x] for v in mesh.ends[e] for x in mesh.at[v]]
+            ending = [x for x in near if 0 < x <= 1]
+            s = sum(ending) / len(ending) if ending else 1
+        rows.append(row(e, views[0]) if s >= 1 else mixed(s, row(e, views[0]), row(e, views[1])))
+    return rows
+
+
 def vertex_with_creases(mesh, v, smooth):
     """All creases, as far as those that end within this step last, on average; and those that go on alone, for the rest."""
     creases = [(e, mesh.sharpness[e]) for e in mesh.at[v] if mesh.sharpness[e] > 0]
@@ -211,7 +309,7 @@ def vertex_with_creases(mesh, v, smooth):
 
 
 def loop_beta(scheme, n):
-    if scheme == "loop-warren":
+    if base(scheme) == "loop-warren":
         return W["warren n = 3"] if n == 3 else W["warren n > 3"] / n
     return (W["loop beta: 5/8"] - (W["loop beta: 3/8"] + W["loop beta: 1/4"] * math.cos(2 * math.pi / n)) ** 2) / n
 
@@ -224,11 +322,14 @@ def loop_points(mesh, scheme):
             beta = loop_beta(scheme, n)
             return [(v, 1 - n * beta)] + [(mesh.other(e, v), beta) for e in mesh.at[v]]
         rows.add(vertex_with_creases(mesh, v, smooth))
-    for e, (a, b) in enumerate(mesh.ends):
-        def smooth():
-            across = [(mesh.faces[f][(i + 2) % 3], W["loop edge opposite"]) for f, i in mesh.sides[e]]
-            return [(a, W["loop edge ends"]), (b, W["loop edge ends"])] + across
-        rows.add(edge_with_creases(mesh, e, smooth))
+
+    def across(e, weight):
+        return [(mesh.faces[f][(i + 2) % 3], W[weight]) for f, i in mesh.sides[e]]
+
+    def smooth(e):
+        return [(p, W["loop edge ends"]) for p in mesh.ends[e]] + across(e, "loop edge opposite")
+    for row in edges_with_rules(mesh, scheme, smooth, lambda e: across(e, "blz loop others")):
+        rows.add(row)
     return rows.apply(mesh.points)
 
 
@@ -277,7 +378,7 @@ def ten_points(mesh, fans, e, w):
     return row
 
 
-def catmull_clark_points(mesh):
+def catmull_clark_points(mesh, scheme):
     vertices, edges = len(mesh.points), len(mesh.ends)
     faces = Rows()
     for face in mesh.faces:
@@ -298,10 +399,16 @@ def catmull_clark_points(mesh):
                 row += [(p, W["catmull-clark R"] / n / n / 2) for p in mesh.ends[e]]
             return row
         rows.add(vertex_with_creases(mesh, v, smooth))
-    for e, (a, b) in enumerate(mesh.ends):
-        def smooth():
-            return [(p, W["catmull-clark edge"]) for p in [a, b] + [vertices + f for f, _ in mesh.sides[e]]]
-        rows.add(edge_with_creases(mesh, e, smooth))
+
+    def smooth(e):
+        return [(p, W["catmull-clark edge"]) for p in [*mesh.ends[e]] + [vertices + f for f, _ in mesh.sides[e]]]
+
+    def others(e):
+        # 1/16 for each of four other vertices of quads: a quarter of the face points, less what these have of the ends
+        faces = [(vertices + f, W["blz catmull-clark others"]) for f, _ in mesh.sides[e]]
+        return faces + [(p, -W["blz catmull-clark others"] / 2) for p in mesh.ends[e]]
+    for row in edges_with_rules(mesh, scheme, smooth, others):
+        rows.add(row)
     made = rows.apply(pool)
     return np.vstack([made[:vertices + edges], pool[vertices:]])
 
@@ -338,7 +445,7 @@ def step(mesh, scheme, w=0.0):
         return dual_step(mesh, scheme)
     vertices, edges = len(mesh.points), len(mesh.ends)
     faces, keys = [], []
-    if scheme in TRIANGLES:
+    if base(scheme) in TRIANGLES:
         require(all(len(face) == 3 for face in mesh.faces), "not triangles")
         points = butterfly_points(mesh, w) if scheme == "modified-butterfly" else loop_points(mesh, scheme)
         for f, (face, own) in enumerate(zip(mesh.faces, mesh.edges)):
@@ -349,7 +456,7 @@ def step(mesh, scheme, w=0.0):
             faces.append(on)
             keys.append([("inside", f, 1), ("inside", f, 2), ("inside", f, 0)])
     else:
-        points = catmull_clark_points(mesh)
+        points = catmull_clark_points(mesh, scheme)
         for f, (face, own) in enumerate(zip(mesh.faces, mesh.edges)):
             for i in range(len(face)):
                 faces.append([face[i], vertices + own[i], vertices + edges + f, vertices + own[i - 1]])
@@ -543,7 +650,7 @@ def published_limit(mesh, v, scheme, fans):
     n = len(spokes)
     ring = [P[mesh.other(e, v)] for e in spokes]
     turn = [2 * math.pi * i / n for i in range(n)]
-    if scheme in ("loop", "loop-warren"):
+    if base(scheme) in ("loop", "loop-warren"):
         beta = loop_beta(scheme, n)
         centre = 1 / (1 + 8 * n * beta / 3)
         t1 = sum(math.cos(t) * p for t, p in zip(turn, ring))
@@ -972,7 +1079,8 @@ class Program:
         source, target = self.folder / f"in.{came}", self.folder / f"out.{ending}"
         source.write_bytes(given)
         target.unlink(missing_ok=True)
-        words = [self.path, command, scheme, str(source), "--out", str(target), *options]
+        rules = ["--boundary-rules", rules_of(scheme)] if rules_of(scheme) else []
+        words = [self.path, command, base(scheme), str(source), "--out", str(target), *rules, *options]
         try:
             done = subprocess.run(words, capture_output=True, text=True, timeout=600, check=False)
         except OSError as error:
@@ -1033,8 +1141,8 @@ def compare(read, mesh, tolerance, tags=True):
 
 
 def refinement_cases(rng, random_points, rounds):
-    for kind, meshes, schemes in (("triangles", triangle_meshes, TRIANGLES + ("catmull-clark",) + DUAL),
-                                  ("polygons", polygon_meshes, ("catmull-clark",) + DUAL)):
+    for kind, meshes, schemes in (("triangles", triangle_meshes, TRIANGLES + ("catmull-clark",) + DUAL + VARIANTS),
+                                  ("polygons", polygon_meshes, ("catmull-clark",) + DUAL + VARIANTS[-1:])):
         for name, faces in meshes(rng, random_points, rounds):
             closed = is_closed(faces)
             faces, points = shuffled(rng, [list(face) for face in faces], random_points)
@@ -1052,7 +1160,7 @@ def refinement_cases(rng, random_points, rounds):
                 if scheme == "modified-butterfly":
                     for text, w in (("1/32", 1 / 32), ("-1/10", -0.1)):
                         yield Case(name, plain, scheme, min(levels, 2), ["--set", f"w={text}"], w)
-                if scheme not in WITH_CREASES:
+                if base(scheme) not in WITH_CREASES:
                     continue
                 for creases, corners in ((1, 0), (3, 1), (len(faces) // 2, 0), (len(faces), 2)):
                     yield Case(name + ", tagged", tagged(rng, faces, points, creases, corners), scheme, levels)

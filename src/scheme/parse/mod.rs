@@ -48,7 +48,7 @@ pub const KEYS: [&str; 29] = [
     "claims.equals",
     "claims.source",
     "vertex.crease, vertex.corner, edge.crease",
-    "edge.crease.from-irregular-end, edge.crease.from-dart-end",
+    "edge.crease.from-irregular-end, edge.crease.from-dart-end, edge.crease.third",
     "edge.from-crease-end, edge.from-corner-end, edge.from-dart-end",
     "like",
     "triangles, quads",
