@@ -113,8 +113,8 @@ fn mutants(listed: Listed) -> Vec<(String, String)> {
     let mut mutants = Vec::new();
     let mut start = 0;
     for line in listed.text[..end].split_inclusive('\n') {
-        // a range of values says nothing of the weights
-        let code = line.split('#').next().unwrap_or("").split("integer").next().unwrap_or("");
+        // a range of values, and what is said of a parameter, say nothing of the weights
+        let code = ["#", "integer", "means"].iter().fold(line, |code, end| code.split(end).next().unwrap_or(""));
         let header = ["name", "mesh", "split", "source", "boundary", "like", "default", "range"]
             .iter()
             .any(|key| code.starts_with(key));
