@@ -7,6 +7,7 @@
 pub mod catalogue;
 mod check;
 mod claim;
+pub mod curve;
 mod evaluate;
 pub mod formula;
 mod interval;
