@@ -8,6 +8,7 @@ pub mod blocks;
 pub mod boundary;
 pub mod charmap;
 pub mod cores;
+pub mod curve;
 pub mod exact;
 pub mod limit;
 pub mod local;

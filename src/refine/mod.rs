@@ -5,6 +5,7 @@
 
 mod births;
 mod compact;
+pub mod curve;
 mod exact_weights;
 mod gather;
 mod growth;

@@ -55,7 +55,7 @@ impl RuleBook {
     /// # Errors
     /// As [`Scheme::check`].
     pub fn check(&self, counts: &[usize], regular: usize) -> Result<Vec<RuleSum>, Faults> {
-        let mut faults: Vec<Fault> = self.parameters.iter().filter_map(|p| self.check_parameter(p).err()).collect();
+        let mut faults: Vec<Fault> = self.parameter_faults();
         let mut sums = Vec::new();
         if faults.is_empty() {
             for rule in self.rules.values() {
@@ -132,6 +132,11 @@ impl RuleBook {
             }
         }
         Ok(())
+    }
+
+    /// What is wrong with the values of parameters.
+    pub(super) fn parameter_faults(&self) -> Vec<Fault> {
+        self.parameters.iter().filter_map(|p| self.check_parameter(p).err()).collect()
     }
 
     fn check_parameter(&self, parameter: &Parameter) -> Result<(), Fault> {

@@ -4,6 +4,8 @@
 //! keys are listed in [`KEYS`]; the README's table says what they mean, and a test holds the two together.
 
 mod claims;
+mod curve;
+mod grid;
 mod names;
 mod rules;
 mod values;
@@ -22,7 +24,7 @@ use toml::de::{DeTable, DeValue};
 pub const MAX_FILE_BYTES: usize = 1 << 16;
 
 /// Every key of a scheme file and of a boundary file, as the README's table lists them.
-pub const KEYS: [&str; 22] = [
+pub const KEYS: [&str; 35] = [
     "name",
     "mesh",
     "split",
@@ -45,12 +47,29 @@ pub const KEYS: [&str; 22] = [
     "claims.equals",
     "claims.source",
     "vertex.crease, vertex.corner, edge.crease",
+    "arity",
+    "mask",
+    "taps",
+    "first",
+    "symbol",
+    "average",
+    "averaged",
+    "halves",
+    "points",
+    "ends",
+    "ends.rules",
+    "ends.then",
+    "product",
 ];
 
 const SCHEME_KEYS: [&str; 11] =
     ["name", "mesh", "split", "source", "boundary", "parameters", "let", "vertex", "edge", "face", "corner"];
 const BOUNDARY_KEYS: [&str; 6] = ["name", "source", "parameters", "let", "vertex", "edge"];
 const MESHES: [&str; 3] = ["triangles", "quads", "polygons"];
+/// What stands under `mesh` in a file of a scheme for curves.
+const CURVE: &str = "curve";
+/// What stands under `mesh` in a file of a tensor product.
+const GRID: &str = "grid";
 
 type Item<'a, 'i> = (&'a str, Range<usize>, &'a Spanned<DeValue<'i>>);
 
@@ -74,11 +93,21 @@ impl Scheme {
     /// # Errors
     /// Why it can't be set, in words.
     pub fn set(&mut self, name: &str, given: &str) -> Result<(), String> {
-        let known: Vec<String> = self.book.parameters.iter().map(|p| p.name.clone()).collect();
-        let Some(parameter) = self.book.parameters.iter_mut().find(|p| p.name == name) else {
+        self.book.set(name, given)
+    }
+}
+
+impl RuleBook {
+    /// Sets a parameter, as `--set name=value` does.
+    ///
+    /// # Errors
+    /// Why it can't be set, in words.
+    pub fn set(&mut self, name: &str, given: &str) -> Result<(), String> {
+        let known: Vec<String> = self.parameters.iter().map(|p| p.name.clone()).collect();
+        let Some(parameter) = self.parameters.iter_mut().find(|p| p.name == name) else {
             return Err(match known.as_slice() {
-                [] => format!("{} has no parameters, so `{name}` can't be set", self.book.title),
-                _ => format!("{} has no parameter `{name}`; it has {}", self.book.title, known.join(", ")),
+                [] => format!("{} has no parameters, so `{name}` can't be set", self.title),
+                _ => format!("{} has no parameter `{name}`; it has {}", self.title, known.join(", ")),
             });
         };
         let formula = Formula::parse(given).map_err(|fault| format!("`{name}={given}`: {}", fault.message))?;
@@ -87,12 +116,10 @@ impl Scheme {
         }
         let value = Placed { formula, span: parameter.span.clone(), start: None };
         parameter.value = value.clone();
-        let evaluated = self.book.evaluate::<f64>(&value, &Place::at(None, 0));
+        let evaluated = self.evaluate::<f64>(&value, &Place::at(None, 0));
         evaluated.map(|_| ()).map_err(|fault| format!("`{name}={given}`: {}", fault.message))
     }
-}
 
-impl RuleBook {
     /// Reads a boundary file for one kind of mesh.
     ///
     /// # Errors
@@ -112,11 +139,13 @@ struct Reader<'t> {
     faults: Vec<Fault>,
     /// Names under [let] and [parameters] whose own formulas are at fault: not unknown where they are used.
     broken: BTreeSet<String>,
+    /// Counts and indices that names under [let] may use.
+    counts: &'static [&'static str],
 }
 
 impl<'t> Reader<'t> {
     fn new(text: &'t str) -> Self {
-        Reader { text, faults: Vec::new(), broken: BTreeSet::new() }
+        Reader { text, faults: Vec::new(), broken: BTreeSet::new(), counts: &["n", "k", "j"] }
     }
 
     fn into_faults(mut self, origin: &str) -> Faults {
