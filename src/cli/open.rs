@@ -3,16 +3,28 @@
 use super::{Failure, failure};
 use eigenring::fault::nearest;
 use eigenring::refine;
-use eigenring::scheme::{MAX_FILE_BYTES, RuleBook, RuleSum, Scheme, catalogue};
+use eigenring::scheme::{AnyScheme, MAX_FILE_BYTES, RuleBook, RuleSum, Scheme, catalogue};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// The scheme of a name of the catalogue, or of a file, with its parameters set.
+/// The scheme for surfaces of a name of the catalogue, or of a file, with its parameters set.
 pub(crate) fn open(name: &str, settings: &[String]) -> Result<Scheme, Failure> {
-    let mut scheme = match catalogue::open(name) {
+    match open_any(name, settings)? {
+        AnyScheme::Surface(scheme) => Ok(*scheme),
+        other => {
+            let kind = if matches!(other, AnyScheme::Grid(_)) { "grids" } else { "curves" };
+            let title = &other.book().title;
+            Err(failure(format!("{title} is a scheme for {kind}; this command takes schemes for surfaces")))
+        }
+    }
+}
+
+/// The scheme of a name of the catalogue, or of a file, of whatever kind, with its parameters set.
+pub(crate) fn open_any(name: &str, settings: &[String]) -> Result<AnyScheme, Failure> {
+    let mut scheme = match catalogue::any(name) {
         Some(scheme) => scheme?,
-        None => Scheme::parse(&short_name(name), name, &read(name)?)?,
+        None => AnyScheme::parse(&short_name(name), name, &read(name)?)?,
     };
     let mut set: Vec<&str> = Vec::new();
     for setting in settings {
@@ -83,7 +95,7 @@ fn not_opened(name: &str, error: &std::io::Error) -> Failure {
     if error.kind() != std::io::ErrorKind::NotFound {
         return failure(format!("`{name}` can't be opened: {error}"));
     }
-    let known: Vec<&str> = catalogue::SCHEMES.iter().map(|listed| listed.id).collect();
+    let known: Vec<&str> = catalogue::all().map(|listed| listed.id).collect();
     let hint = match nearest(name, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("the schemes are {}; a file is given by its path", known.join(", ")),

@@ -87,7 +87,7 @@ pub struct Table {
 }
 
 impl Table {
-    fn new(title: &str, note: &str, head: Vec<String>, rows: Vec<Vec<Cell>>) -> Table {
+    pub(super) fn new(title: &str, note: &str, head: Vec<String>, rows: Vec<Vec<Cell>>) -> Table {
         Table { title: title.to_string(), note: note.to_string(), head, rows }
     }
 }

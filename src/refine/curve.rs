@@ -3,10 +3,6 @@
 //! Rows of weights from the mask, applied to points: closed polygons go round, open ones end by the rules of their ends; without such
 //! rules only those new points are made whose old points are all there, and the polygon grows shorter at its ends.
 
-mod polygon;
-
-pub use polygon::{NotAPolygon, Polygon};
-
 use crate::scheme::curve::{Halves, Mask, Rules};
 use dashu_ratio::RBig;
 use std::fmt;
