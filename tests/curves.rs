@@ -295,6 +295,58 @@ fn eigenvectors_fulfil_their_equations() {
     }
 }
 
+/// The mask of the k-th derivative takes polynomials of lower degree to 0, and the k-th power of the index to k!.
+#[test]
+fn derivative_masks_differentiate() {
+    let mut seen = 0;
+    for entry in catalogue::CURVES {
+        let Rules::Mask(mask, None) = rules(entry.id, &[]) else { continue };
+        for own in points_of_mask(&mask, None).unwrap() {
+            let u = own.at.position();
+            for (k, derivative) in (1_usize..).zip(&own.derivatives) {
+                let moment = |l: usize| {
+                    let list = weights(derivative);
+                    list.iter().fold(RBig::ZERO, |sum, (j, w)| sum + w * (RBig::from(*j) - &u).pow(l as isize))
+                };
+                assert!((0..k).all(|l| moment(l).is_zero()), "{} {k}", entry.id);
+                assert_eq!(moment(k), RBig::from((1..=k).product::<usize>()), "{} {k}", entry.id);
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 20, "{seen}");
+}
+
+/// A scheme whose largest eigenvalue after 1 is irrational: its tangent mask is enclosed, and fulfils its equation.
+#[test]
+fn irrational_tangents_fulfil_their_equation() {
+    // symmetric, six weights: on the four points of a middle 1, and the roots of x^2 - 3/8 x - 1/16 and of a linear factor
+    let mut irrational = 0;
+    for (a, b) in [(1, 3), (2, 3), (-1, 5), (1, 5), (-2, 7), (3, 1)] {
+        let c = 16 - a - b;
+        let list = [a, b, c, c, b, a].map(|w| format!("\"{w}/16\"")).join(", ");
+        let Ok(own) = told(&format!("mask = [{list}]\nfirst = -3")).mask() else { continue };
+        let points = points_of_mask(&own, None).unwrap();
+        let middle = point(&points, Marked::MidEdge);
+        let Ok(tangent) = &middle.tangent else { continue };
+        let lambda = &middle.minimal_spectrum[1];
+        if lambda.rational.is_some() {
+            continue;
+        }
+        irrational += 1;
+        let local = &middle.minimal;
+        let at = |index: i64| tangent.iter().find(|w| w.index == index).map_or(0.0, |w| w.value);
+        for (column, index) in local.indices.iter().enumerate() {
+            let image: f64 =
+                local.indices.iter().zip(&local.matrix).map(|(i, row)| at(*i) * row[column].to_f64().value()).sum();
+            assert!((image - lambda.value.re * at(*index)).abs() < 1e-13);
+        }
+        let first: f64 = tangent.iter().map(|w| w.value * (w.index as f64 - 0.5)).sum();
+        assert!((first - 1.0).abs() < 1e-13);
+    }
+    assert!(irrational > 0);
+}
+
 /// A limit mask takes the same value from any level: w S = w, and the values at vertices sum to 1 with right moments for splines.
 #[test]
 fn limit_masks_agree_with_deep_refinement() {
@@ -502,9 +554,9 @@ fn clamped_ends_agree_with_de_boor() {
     let limits = CurveLimits::new(&own).unwrap().of(&fine, false).unwrap();
     assert_eq!(limits.len(), 4 * 64 + 3);
     // the point of index j >= 2 stands for the parameter (j - 1)/64
-    for j in 2..limits.len() - 2 {
+    for (j, limit) in limits.iter().enumerate().take(limits.len() - 2).skip(2) {
         let x = (j - 1) as f64 / 64.0;
-        assert!((limits[j][0] - de_boor(x)).abs() < 1e-12, "{j}");
+        assert!((limit[0] - de_boor(x)).abs() < 1e-12, "{j}");
     }
     assert_eq!((limits[0][0], limits[limits.len() - 1][0]), (0.0, 5.0));
 }
@@ -518,6 +570,30 @@ fn open_polygons_without_end_rules_keep_what_is_decided() {
     let four = CurveRefiner::new(&rules("four-point", &[]));
     assert!(four.step(&[[0.0]; 2], false).unwrap_err().to_string().contains("at least 3"));
     assert!(four.step(&[[0.0], [1.0], [2.0], [3.0]], false).unwrap().contains(&[1.5]));
+}
+
+/// A grid is refined by products of weights: the double sum over the product mask, point by point.
+#[test]
+fn grids_are_refined_by_products() {
+    let [a, b] = [rules("b-spline", &[]), rules("chaikin", &[])];
+    let grid: Vec<Vec<[f64; 3]>> =
+        (0..5).map(|i| (0..4).map(|j| [i as f64, j as f64, ((3 * i * i + 5 * j) % 7) as f64]).collect()).collect();
+    let refined = eigenring::refine::grid::step(&grid, [&CurveRefiner::new(&a), &CurveRefiner::new(&b)]).unwrap();
+    let (Rules::Mask(a, _), Rules::Mask(b, _)) = (&a, &b) else { panic!() };
+    // the first new points that are all there: cubic from index 1 to 7, quadratic from 0 to 5
+    assert_eq!((refined.len(), refined[0].len()), (7, 6));
+    for (i, row) in (1_i64..).zip(&refined) {
+        for (j, point) in (0_i64..).zip(row) {
+            let mut sum = [0.0; 3];
+            for (k, old) in (0_i64..).zip(&grid) {
+                for (m, own) in (0_i64..).zip(old) {
+                    let weight = (a.get(i - 2 * k) * b.get(j - 2 * m)).to_f64().value();
+                    (0..3).for_each(|axis| sum[axis] += weight * own[axis]);
+                }
+            }
+            assert!((0..3).all(|axis| (sum[axis] - point[axis]).abs() < 1e-14), "{i} {j}");
+        }
+    }
 }
 
 proptest! {

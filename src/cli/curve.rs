@@ -27,7 +27,7 @@ impl From<NoCurveReport> for Failure {
     }
 }
 
-fn format_of(path: &Path) -> Result<CurveFormat, Failure> {
+pub(crate) fn format_of(path: &Path) -> Result<CurveFormat, Failure> {
     CurveFormat::of_path(path).ok_or_else(|| {
         let endings: Vec<&str> = CurveFormat::ALL.into_iter().map(CurveFormat::ending).collect();
         let endings = endings.join(", .");
@@ -35,7 +35,7 @@ fn format_of(path: &Path) -> Result<CurveFormat, Failure> {
     })
 }
 
-fn load(path: &Path, closed: bool) -> Result<Vec<Polygon>, Failure> {
+pub(crate) fn load(path: &Path, closed: bool) -> Result<Vec<Polygon>, Failure> {
     let name = path.display();
     let format = format_of(path)?;
     match path.metadata() {

@@ -6,6 +6,7 @@
 mod analyze;
 mod catalogue;
 mod curve;
+mod grid;
 mod matrix;
 mod memory;
 mod mesh_file;

@@ -104,12 +104,7 @@ impl Job {
             AnyScheme::Curve(scheme) => {
                 return super::curve::refine(&scheme, (&self.input, &self.out), self.closed, levels, to_limit);
             }
-            AnyScheme::Grid(scheme) => {
-                let title = &scheme.book.title;
-                return Err(failure(format!(
-                    "{title}: grids are analysed, and not yet refined\n  help: refine curves one by one"
-                )));
-            }
+            AnyScheme::Grid(scheme) => return super::grid::refine(&scheme, (&self.input, &self.out), levels, to_limit),
         };
         check_destination(&self.out)?;
         let loaded = self.reading.load(&self.input)?;

@@ -299,7 +299,7 @@ fn halved<const D: usize>(
     second: &[Vec<f64>],
 ) -> Result<Vec<[f64; D]>, NotRefinableCurve> {
     let sides = first.len() - 1;
-    if points.len() < 2 || (points.len() - 1) % sides != 0 {
+    if points.len() < 2 || !(points.len() - 1).is_multiple_of(sides) {
         return Err(NotRefinableCurve::Pieces { points: points.len(), sides });
     }
     let mean = |row: &Vec<f64>, piece: &[[f64; D]]| {

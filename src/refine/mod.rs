@@ -8,6 +8,7 @@ mod compact;
 pub mod curve;
 mod exact_weights;
 mod gather;
+pub mod grid;
 mod growth;
 mod names;
 mod regular;

@@ -100,7 +100,7 @@ impl CurveLimits {
                 if closed {
                     return Err(NotRefinableCurve::Closed);
                 }
-                if points.len() < 2 || (points.len() - 1) % sides != 0 {
+                if points.len() < 2 || !(points.len() - 1).is_multiple_of(*sides) {
                     return Err(NotRefinableCurve::Pieces { points: points.len(), sides: *sides });
                 }
                 let starts = (0..points.len() - 1).step_by(*sides);

@@ -105,8 +105,14 @@ pub fn neighbourhood(mask: &Mask, position: &RBig, extent: Extent) -> Result<Nei
             product(&step(mask, &windows[level + 1], &windows[level]), &product_so_far)
         })
     };
-    let local =
-        LocalMatrix { indices: windows[start].clone(), matrix: between(start, start + period)?, steps: period as u32 };
+    // indices count from the vertex at the point, or before it
+    let c = parameter(mask, &RBig::ZERO);
+    let own = small((&parameters[start] - c).floor());
+    let local = LocalMatrix {
+        indices: windows[start].iter().map(|index| index - own).collect(),
+        matrix: between(start, start + period)?,
+        steps: period as u32,
+    };
     Ok(Neighbourhood { indices: windows[0].clone(), before: between(0, start)?, steps_before: start as u32, local })
 }
 

@@ -5,11 +5,15 @@
 //! the plain difference goes to 0 by this factor, its direction stays (Halstead, Kass and DeRose 1993).
 
 use super::local::{Extent, LocalMatrix, Neighbourhood, at_end, neighbourhood};
-use super::spectrum::{BITS, CurveEigenvalue, enclosed_left, spectrum};
+use super::spectrum::{BITS, CurveEigenvalue, eigenvectors, enclosed_left, spectrum};
+use crate::numbers::linear::transposed;
 use crate::numbers::{Enclosure, Field, Trouble};
 use crate::scheme::curve::{Ends, Halves, Mask};
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
+
+/// Masks of derivatives up to this order are looked for.
+const MOST_DERIVATIVES: usize = 8;
 
 /// A point that a scheme is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,6 +157,14 @@ fn pulled_back(neighbourhood: &Neighbourhood, left: &[RBig]) -> Vec<RBig> {
     (0..neighbourhood.indices.len()).map(column).collect()
 }
 
+/// The left eigenvector of a rational eigenvalue.
+fn left_vector(neighbourhood: &Neighbourhood, e: &CurveEigenvalue) -> Option<Vec<RBig>> {
+    let listed = e.left.first().cloned();
+    let found =
+        || eigenvectors(&transposed(&neighbourhood.local.matrix), e.rational.as_ref()?).ok()?.into_iter().next();
+    listed.or_else(found)
+}
+
 /// sum_j w_j (j - u)^k
 fn moment(indices: &[i64], weights: &[RBig], position: &RBig, order: usize) -> RBig {
     let terms = indices.iter().zip(weights);
@@ -182,8 +194,8 @@ fn limit_mask(neighbourhood: &Neighbourhood, spectrum: &[CurveEigenvalue]) -> Ma
         let words = other.words.as_ref().map_or(String::new(), |words| words.text.clone());
         return Err(format!("the eigenvalue {words} is not smaller than 1 in modulus: the scheme does not converge"));
     }
-    let left = one.left.first().ok_or("there is no left eigenvector")?;
-    let weights = pulled_back(neighbourhood, left);
+    let left = left_vector(neighbourhood, one).ok_or("there is no left eigenvector")?;
+    let weights = pulled_back(neighbourhood, &left);
     let sum = weights.iter().fold(RBig::ZERO, |sum, weight| sum + weight);
     if sum.is_zero() {
         Err("the left eigenvector sums to 0".into())
@@ -217,8 +229,8 @@ fn tangent_mask(neighbourhood: &Neighbourhood, spectrum: &[CurveEigenvalue], pos
     if !after.all(apart) {
         return Err("two eigenvalues share the largest modulus after 1, so that tangents turn from step to step".into());
     }
-    if let Some(left) = lambda.left.first() {
-        let weights = pulled_back(neighbourhood, left);
+    if let Some(left) = left_vector(neighbourhood, lambda) {
+        let weights = pulled_back(neighbourhood, &left);
         let first = moment(&neighbourhood.indices, &weights, position, 1);
         let factor = if first.is_zero() { RBig::ONE } else { RBig::ONE / first };
         return Ok(scaled(neighbourhood, &weights, &factor));
@@ -262,7 +274,7 @@ fn derivative_masks(
 ) -> Vec<Vec<IndexedWeight>> {
     let mut masks = Vec::new();
     let mut factorial = RBig::ONE;
-    for order in 1..neighbourhood.local.indices.len() {
+    for order in 1..neighbourhood.local.indices.len().min(MOST_DERIVATIVES + 1) {
         factorial *= RBig::from(order as u64);
         let value = |k: usize| RBig::ONE / dilation.pow((k as u32 * neighbourhood.local.steps) as isize);
         let powers: Vec<RBig> = (0..=order).map(value).collect();
@@ -272,11 +284,9 @@ fn derivative_masks(
         if !simple || spectrum.iter().any(|e| !expected(e) && !is_below(e, &powers[order])) {
             break;
         }
-        let Some(left) = own.filter(|e| e.rational.as_ref() == Some(&powers[order])).find_map(|e| e.left.first())
-        else {
-            break;
-        };
-        let weights = pulled_back(neighbourhood, left);
+        let mut found = own.filter(|e| e.rational.as_ref() == Some(&powers[order]));
+        let Some(left) = found.find_map(|e| left_vector(neighbourhood, e)) else { break };
+        let weights = pulled_back(neighbourhood, &left);
         let moment = moment(&neighbourhood.indices, &weights, position, order);
         if moment.is_zero() {
             break;

@@ -21,6 +21,9 @@ pub const BITS: usize = 192;
 /// Larger matrices are not taken apart.
 pub const MAX_SIZE: usize = 64;
 
+/// Eigenvectors are listed for matrices up to this size.
+pub const MAX_WITH_VECTORS: usize = 16;
+
 /// An eigenvalue.
 #[derive(Clone, Debug)]
 pub struct CurveEigenvalue {
@@ -42,7 +45,7 @@ pub struct CurveEigenvalue {
     pub geometric: usize,
     /// The size of its largest Jordan block.
     pub jordan: usize,
-    /// Right eigenvectors, where it is rational: a basis, with coprime whole entries and the last that is not zero positive.
+    /// Right eigenvectors, where it is rational and the matrix has at most [`MAX_WITH_VECTORS`] rows: a basis, with coprime whole entries and the last that is not zero positive.
     pub right: Vec<Vec<RBig>>,
     /// Left eigenvectors, in the same way.
     pub left: Vec<Vec<RBig>>,
@@ -117,8 +120,10 @@ fn of_factor(matrix: &Matrix<RBig>, factor: &Univariate<Free>, times: usize) -> 
         None => irrational_structure(matrix, factor, times)?,
     };
     let (right, left) = match &rational {
-        Some(value) => (eigenvectors(matrix, value)?, eigenvectors(&transposed(matrix), value)?),
-        None => (Vec::new(), Vec::new()),
+        Some(value) if matrix.len() <= MAX_WITH_VECTORS => {
+            (eigenvectors(matrix, value)?, eigenvectors(&transposed(matrix), value)?)
+        }
+        _ => (Vec::new(), Vec::new()),
     };
     let over_rationals = || factor.mapped(|value| value.as_rational().ok_or(NOT_RATIONAL));
     let polynomial = if rational.is_none() { Some(over_rationals()?) } else { None };

@@ -49,6 +49,9 @@ pub(super) fn tables(report: &CurveReport) -> Vec<Table> {
     tables.extend(report.halves.iter().flat_map(halves));
     for point in &report.points {
         let at = point.at;
+        if point.steps_before > 0 {
+            continue;
+        }
         tables.extend(local_matrix(&format!("Local matrix at the {at}"), MINIMAL, &point.minimal));
         tables.push(eigenvalues(&format!("Eigenvalues at the {at}"), &note(point), &point.minimal));
         if point.full.indices != point.minimal.indices {
@@ -91,17 +94,13 @@ const MEASURED: &str = "The farthest of vertices and middles of edges from the c
 
 fn note(point: &CurvePointReport) -> String {
     let steps = if point.steps == 1 { String::new() } else { format!(" Of {} steps together.", point.steps) };
-    let before = match point.steps_before {
-        0 => String::new(),
-        steps => format!(" {steps} step leads to the point that later ones bring back to itself."),
-    };
     let basis = if point.minimal.diagonalizable {
         "There is a basis of eigenvectors: the matrix is non-defective."
     } else {
         "There is no basis of eigenvectors: the matrix is defective."
     };
     format!(
-        "On the points that decide the value there. {basis}{steps}{before} The vector of 1 is (1, ..., 1), since weights sum to 1."
+        "On the points that decide the value there. {basis}{steps} The vector of 1 is (1, ..., 1), since weights sum to 1."
     )
 }
 
@@ -175,11 +174,22 @@ fn eigenvalues(title: &str, note: &str, local: &LocalReport) -> Table {
 
 /// A mask in words: weights with the indices of their points.
 pub(super) fn mask_words(mask: &[WeightAt]) -> String {
-    let weight = |own: &WeightAt| {
-        let value = own.exact.clone().unwrap_or_else(|| format!("≈ {:.10}", own.weight));
-        format!("{value} p[{}]", own.index)
-    };
-    mask.iter().map(weight).collect::<Vec<_>>().join(" + ").replace("+ -", "- ")
+    let exact = |own: &WeightAt| own.exact.clone().unwrap_or_else(|| format!("≈ {:.10}", own.weight));
+    in_words(mask, exact)
+}
+
+/// The same in decimals where it is long, and in a count where it is very long.
+pub(super) fn short_words(mask: &[WeightAt]) -> String {
+    const LONGEST: usize = 160;
+    let decimals = || in_words(mask, |own| format!("{:.6}", own.weight));
+    let few = |words: &String| words.chars().count() <= LONGEST;
+    let exact = Some(mask_words(mask)).filter(few);
+    exact.or_else(|| Some(decimals()).filter(few)).unwrap_or_else(|| format!("{} weights, in the files", mask.len()))
+}
+
+fn in_words(mask: &[WeightAt], value: impl Fn(&WeightAt) -> String) -> String {
+    let words: Vec<String> = mask.iter().map(|own| format!("{} p[{}]", value(own), own.index)).collect();
+    words.join(" + ").replace("+ -", "- ")
 }
 
 fn masks(report: &CurveReport) -> Table {
@@ -199,9 +209,12 @@ fn masks(report: &CurveReport) -> Table {
             push(&format!("derivative {order}"), &Some(mask.clone()), &None);
         }
     }
+    let led = report.points.iter().filter(|point| point.steps_before > 0);
+    let led: Vec<String> =
+        led.map(|point| format!(" A step leads from the {} to another of these points.", point.at)).collect();
     let note = "The limit mask is the left eigenvector of 1, with sum 1; the tangent mask that of the largest eigenvalue after 1, scaled so that the \
                 sum of weight times index is 1: the plain difference goes to 0 by that eigenvalue a step, its direction stays. The mask of the k-th \
                 derivative, with respect to the index, holds where the curve is k times differentiable. At a middle p[0] and p[1] are the ends of the \
                 edge; at an end indices count from it.";
-    Table::new(DERIVATIVES, note, heads(&["at", "mask", "weights"]), rows)
+    Table::new(DERIVATIVES, &format!("{note}{}", led.concat()), heads(&["at", "mask", "weights"]), rows)
 }

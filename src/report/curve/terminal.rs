@@ -1,7 +1,7 @@
 //! The report of a curve as a summary that fits a screen.
 
 use super::model::{CurvePointReport, CurveReport};
-use super::tables::{mask_words, value_cell};
+use super::tables::{short_words, value_cell};
 use std::fmt::Write;
 
 /// Eigenvalues shown at a point.
@@ -18,9 +18,12 @@ pub(super) fn terminal(report: &CurveReport) -> String {
     let values: Vec<String> = report.parameters.iter().map(|(name, value)| format!(", {name} = {value}")).collect();
     let mut text = format!("{} · curve, arity {}, {kind}{primal}{}\n\n", report.title, report.arity, values.concat());
     if let (Some(mask), Some(first)) = (&report.mask, report.first_index) {
-        let _ = writeln!(text, "mask ({}) from index {first}", mask.join(", "));
+        let words = mask.join(", ");
+        let shown = if words.len() <= 120 { format!("({words})") } else { format!("of {} weights", mask.len()) };
+        let _ = writeln!(text, "mask {shown} from index {first}");
         let rules = report.sum_rules.unwrap_or(0);
-        let _ = writeln!(text, "{rules} factors 1 + z{} of the symbol", if report.arity == 2 { "" } else { " + ..." });
+        let factor = if report.arity == 2 { "1 + z" } else { "1 + z + ..." };
+        let _ = writeln!(text, "{rules} factor{} {factor} of the symbol", if rules == 1 { "" } else { "s" });
     }
     for point in &report.points {
         text.push_str(&at_point(point));
@@ -51,13 +54,14 @@ fn at_point(point: &CurvePointReport) -> String {
         })
         .collect();
     let more = if local.eigenvalues.len() > MOST { ", ..." } else { "" };
-    let mut text = format!("\n{} · {} points, full neighbourhood {}\n", point.at, local.size, point.full.size);
+    let before = if point.steps_before > 0 { ", after a step" } else { "" };
+    let mut text = format!("\n{} · {} points, full neighbourhood {}{before}\n", point.at, local.size, point.full.size);
     let _ = writeln!(text, "  eigenvalues  {}{more}", shown.join(", "));
     for (name, mask, why) in
         [("limit", &point.limit_mask, &point.why_no_limit), ("tangent", &point.tangent_mask, &point.why_no_tangent)]
     {
         let words = match (mask, why) {
-            (Some(mask), _) => mask_words(mask),
+            (Some(mask), _) => short_words(mask),
             (None, why) => format!("none: {}", why.as_deref().unwrap_or("-")),
         };
         let _ = writeln!(text, "  {name:<11}  {words}");

@@ -113,7 +113,7 @@ impl Frame {
 
 fn functions(function: &LimitFunction) -> Result<Picture, Obstacle> {
     const PANEL: i32 = 380;
-    let titles = ["φ", "φ′", "φ″", "φ‴"];
+    let titles = ["φ", "φ'", "φ''", "φ'''"];
     let ends = [function.at.first().copied().unwrap_or(0.0), function.at.last().copied().unwrap_or(1.0)];
     let svg = draw(PANEL * function.approx_values.len() as i32 + 20, |canvas| {
         for (index, (values, title)) in function.approx_values.iter().zip(titles).enumerate() {
