@@ -83,7 +83,8 @@ fn the_commands_refine_polygons() {
     let cut = "0,3\n1,0\n3,0\n4,1\n4,3\n3,4\n1,4\n0,1\n";
     let mut lines: Vec<String> = fs::read_to_string(path("out.csv")).unwrap().lines().map(str::to_string).collect();
     let mut expected: Vec<String> = cut.lines().map(str::to_string).collect();
-    (lines.sort(), expected.sort());
+    lines.sort();
+    expected.sort();
     assert_eq!(lines, expected);
     // the limit of Chaikin's polygon touches the middles of its sides: here those of the refined polygon at its own vertices
     run(&folder, &["limit", "b-spline", "square.csv", "--closed", "-o", "limit.json"]);
