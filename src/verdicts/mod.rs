@@ -4,8 +4,10 @@
 //! only; what rests on floating numbers is *undecided*, with the evidence named and what is missing.
 
 mod claims;
+mod curve;
 
 pub use claims::{ClaimCheck, Outcome, check_claims};
+pub use curve::{CurveFacts, check_curve_claims};
 
 use crate::analysis::Analysis;
 use crate::analysis::exact::{Arithmetic, ExactAnalysis, ExactEigenvalue};

@@ -10,6 +10,7 @@ use crate::analysis::curve::spectrum::{CurveEigenvalue, is_diagonalizable};
 use crate::numbers::enclosure::rational_decimal;
 use crate::report::model::{FORMAT, Reference, reference};
 use crate::scheme::curve::{CurveScheme, Mask, Rules};
+use crate::verdicts::{ClaimCheck, CurveFacts, check_curve_claims};
 use dashu_ratio::RBig;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -45,10 +46,16 @@ pub struct CurveReport {
     /// The matrix form, for B-splines of arity 2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub matrix_form: Option<MatrixFormReport>,
+    /// The largest degree of polynomials that are made, if the scheme converges.
+    pub generation_degree: Option<usize>,
+    /// The largest degree of polynomials that come back from their samples.
+    pub reproduction_degree: Option<usize>,
     /// The marked points.
     pub points: Vec<CurvePointReport>,
     /// How fast polygons come near to the curve.
     pub convergence: Option<ConvergenceReport>,
+    /// What the literature says, beside the analysis.
+    pub claims: Vec<ClaimCheck>,
 }
 
 /// How a scheme for curves is classified.
@@ -191,6 +198,9 @@ impl CurveReport {
             }
         }
         let parameters = scheme.book.parameters.iter();
+        let facts = mask.map(facts).unwrap_or_default();
+        let claims = check_curve_claims(scheme, &facts);
+        let claims = claims.map_err(|fault| NoCurveReport::Faults(scheme.book.faults(vec![fault])))?;
         Ok(CurveReport {
             format: FORMAT,
             scheme: scheme.id.clone(),
@@ -205,6 +215,9 @@ impl CurveReport {
             sum_rules: mask.map(sum_rules),
             halves,
             matrix_form: mask.and_then(matrices),
+            generation_degree: facts.generation,
+            reproduction_degree: facts.reproduction,
+            claims,
             points: points.iter().map(|point| point_report(point, digits)).collect(),
             convergence: convergence(rules).map(|found| ConvergenceReport {
                 distances: found.approx_distances.iter().map(|distance| rounded(*distance)).collect(),
@@ -212,6 +225,11 @@ impl CurveReport {
             }),
         })
     }
+}
+
+/// What is known of a mask.
+fn facts(mask: &Mask) -> CurveFacts {
+    CurveFacts { generation: sum_rules(mask).checked_sub(1), ..CurveFacts::default() }
 }
 
 /// Four significant digits: more would see the machine.

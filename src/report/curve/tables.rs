@@ -81,6 +81,9 @@ pub(super) fn tables(report: &CurveReport) -> Vec<Table> {
         let rows = own.distances.iter().enumerate().map(row).collect();
         Table::new(CONVERGENCE, MEASURED, heads(&["level", "distance", "times smaller"]), rows)
     }));
+    if !report.claims.is_empty() {
+        tables.push(crate::report::tables::claims(&report.claims, "always"));
+    }
     tables.retain(|table| !table.rows.is_empty());
     tables
 }

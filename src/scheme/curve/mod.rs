@@ -132,6 +132,15 @@ impl CurveScheme {
         }
     }
 
+    /// Whether a claim is made for the values of the parameters.
+    ///
+    /// # Errors
+    /// When its condition has no value.
+    pub fn claim_is_made(&self, claim: &CurveClaim) -> Result<bool, Fault> {
+        let Some(condition) = &claim.condition else { return Ok(true) };
+        self.book.holds(condition, &claim.span, None, 0)
+    }
+
     /// The word for its form, for people.
     pub fn form_word(&self) -> &'static str {
         match self.form {
