@@ -16,6 +16,7 @@ pub mod masks;
 pub mod neighbourhood;
 pub mod parts;
 pub mod places;
+pub mod smoothness;
 pub mod spectra;
 pub mod spectrum;
 pub mod verify;
