@@ -110,6 +110,54 @@ fn bezier_splits_as_printed() {
     assert_eq!((halves.first, halves.second), (left.to_vec(), right.to_vec()));
 }
 
+/// Every claim of every file that is made for the default values agrees; so do those of other values.
+#[test]
+fn claims_of_the_catalogue_agree() {
+    let mut seen = 0;
+    let mut agree = |id: &str, settings: &[(&str, &str)]| {
+        let scheme = scheme(id, settings);
+        let document = eigenring::report::curve::curve(&scheme, 10, false).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&document.json).unwrap();
+        for (claim, told) in json["claims"].as_array().unwrap().iter().zip(&scheme.claims) {
+            let expected = if scheme.claim_is_made(told).unwrap() { "agrees" } else { "undecided" };
+            assert_eq!(claim["outcome"], expected, "{id} {settings:?}: {claim}");
+            seen += usize::from(expected == "agrees");
+        }
+    };
+    catalogue::CURVES.iter().for_each(|listed| agree(listed.id, &[]));
+    (1..=8).for_each(|d| agree("b-spline", &[("d", &d.to_string())]));
+    ["1/100", "1/32", "1/10", "3/20", "19/100"].iter().for_each(|w| agree("four-point", &[("w", w)]));
+    ["3/40", "1/12", "1/10"].iter().for_each(|mu| agree("ternary-four-point", &[("mu", mu)]));
+    assert!(seen > 60, "{seen}");
+}
+
+/// Published exponents: Dyn and Levin 2002; Hechler, Moessner and Reif 2009; Hassan and others 2002.
+#[test]
+fn the_report_tells_smoothness() {
+    let told = |id: &str, settings: &[(&str, &str)]| -> serde_json::Value {
+        serde_json::from_str(&eigenring::report::curve::curve(&scheme(id, settings), 10, false).unwrap().json).unwrap()
+    };
+    let four = told("four-point", &[("w", "1/16")]);
+    assert_eq!((&four["smoothness"]["continuity"], &four["smoothness"]["hoelder"]["exact"]), (&1.into(), &"2".into()));
+    assert_eq!(four["smoothness"]["hoelder"]["attained"], false);
+    let chaikin = told("chaikin", &[]);
+    assert_eq!((&chaikin["smoothness"]["continuity"], &chaikin["generation_degree"]), (&1.into(), &2.into()));
+    for (id, name, value, exponent) in [
+        ("four-point", "w", "1/32", 1.228_447),
+        ("four-point", "w", "1/10", 1.583_705),
+        ("four-point", "w", "3/20", 1.222_856),
+        ("six-point", "theta", "3/256", 2.830_075),
+        ("ternary-four-point", "mu", "1/11", 2.182_658),
+    ] {
+        let own = told(id, &[(name, value)]);
+        let hoelder = &own["smoothness"]["hoelder"];
+        let (low, high) = (hoelder["lower"].as_f64().unwrap(), hoelder["upper"].as_f64().unwrap());
+        assert!(low - 6e-7 <= exponent && exponent <= high + 6e-7 && high - low < 1e-5, "{id} {value}: {low} {high}");
+    }
+    let wild = told("four-point", &[("w", "1/2")]);
+    assert!(wild["smoothness"].is_null() && wild["why_no_smoothness"].is_string());
+}
+
 // ---- the forms of a file agree ----
 
 #[test]

@@ -5,12 +5,14 @@
 mod document;
 mod grid;
 mod model;
+mod smoothness;
 mod tables;
 mod terminal;
 
 pub use document::Document;
 pub use grid::grid;
 pub use model::{CurvePointReport, CurveReport, WeightAt};
+pub use smoothness::SmoothnessReport;
 
 use super::plots::curve_pictures;
 use crate::analysis::curve::point::{points_of_halves, points_of_mask};

@@ -1,16 +1,18 @@
 //! Which data has the report of a scheme for curves?
 
 use super::NoCurveReport;
+use super::smoothness::{SmoothnessReport, facts};
 use crate::analysis::curve::convergence::convergence;
 use crate::analysis::curve::difference::sum_rules;
 use crate::analysis::curve::local::LocalMatrix;
 use crate::analysis::curve::matrix_form::{matrix_form, spline_degree};
 use crate::analysis::curve::point::{CurvePoint, IndexedWeight, MaskOf};
 use crate::analysis::curve::spectrum::{CurveEigenvalue, is_diagonalizable};
+use crate::analysis::smoothness::smoothness;
 use crate::numbers::enclosure::rational_decimal;
 use crate::report::model::{FORMAT, Reference, reference};
 use crate::scheme::curve::{CurveScheme, Mask, Rules};
-use crate::verdicts::{ClaimCheck, CurveFacts, check_curve_claims};
+use crate::verdicts::{ClaimCheck, check_curve_claims};
 use dashu_ratio::RBig;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -46,6 +48,11 @@ pub struct CurveReport {
     /// The matrix form, for B-splines of arity 2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub matrix_form: Option<MatrixFormReport>,
+    /// How smooth limit curves are; null where there are none, or it is not known.
+    pub smoothness: Option<SmoothnessReport>,
+    /// Why it is null.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why_no_smoothness: Option<String>,
     /// The largest degree of polynomials that are made, if the scheme converges.
     pub generation_degree: Option<usize>,
     /// The largest degree of polynomials that come back from their samples.
@@ -198,7 +205,8 @@ impl CurveReport {
             }
         }
         let parameters = scheme.book.parameters.iter();
-        let facts = mask.map(facts).unwrap_or_default();
+        let found = mask.map(smoothness);
+        let facts = found.as_ref().map(facts).unwrap_or_default();
         let claims = check_curve_claims(scheme, &facts);
         let claims = claims.map_err(|fault| NoCurveReport::Faults(scheme.book.faults(vec![fault])))?;
         Ok(CurveReport {
@@ -215,6 +223,8 @@ impl CurveReport {
             sum_rules: mask.map(sum_rules),
             halves,
             matrix_form: mask.and_then(matrices),
+            smoothness: found.as_ref().and_then(|found| found.as_ref().ok()).map(SmoothnessReport::of),
+            why_no_smoothness: found.and_then(Result::err).map(|why| why.to_string()),
             generation_degree: facts.generation,
             reproduction_degree: facts.reproduction,
             claims,
@@ -225,11 +235,6 @@ impl CurveReport {
             }),
         })
     }
-}
-
-/// What is known of a mask.
-fn facts(mask: &Mask) -> CurveFacts {
-    CurveFacts { generation: sum_rules(mask).checked_sub(1), ..CurveFacts::default() }
 }
 
 /// Four significant digits: more would see the machine.

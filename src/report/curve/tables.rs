@@ -46,6 +46,7 @@ fn matrix_table(title: &str, note: &str, labels: &[String], rows: &[Vec<String>]
 /// Every table of a report.
 pub(super) fn tables(report: &CurveReport) -> Vec<Table> {
     let mut tables = vec![rules(report)];
+    tables.extend(super::smoothness::table(report));
     tables.extend(report.halves.iter().flat_map(halves));
     for point in &report.points {
         let at = point.at;

@@ -2,6 +2,7 @@
 
 use super::model::{CurvePointReport, CurveReport};
 use super::tables::{short_words, value_cell};
+use crate::verdicts::Outcome;
 use std::fmt::Write;
 
 /// Eigenvalues shown at a point.
@@ -25,6 +26,15 @@ pub(super) fn terminal(report: &CurveReport) -> String {
         let factor = if report.arity == 2 { "1 + z" } else { "1 + z + ..." };
         let _ = writeln!(text, "{rules} factor{} {factor} of the symbol", if rules == 1 { "" } else { "s" });
     }
+    if let Some(own) = &report.smoothness {
+        let _ = writeln!(text, "{}; Hoelder exponent {}", own.continuity_words(), own.hoelder_words());
+    }
+    if let Some(why) = &report.why_no_smoothness {
+        let _ = writeln!(text, "no smoothness is known: {why}");
+    }
+    if let (Some(made), Some(back)) = (report.generation_degree, report.reproduction_degree) {
+        let _ = writeln!(text, "polynomials are made up to degree {made} and reproduced up to degree {back}");
+    }
     for point in &report.points {
         text.push_str(&at_point(point));
     }
@@ -36,6 +46,14 @@ pub(super) fn terminal(report: &CurveReport) -> String {
             "\nfrom the polygon to the curve: {} times less a step, level by level (measured)",
             factors.join(", ")
         );
+    }
+    for claim in report.claims.iter().filter(|claim| claim.outcome == Outcome::Disagrees) {
+        let _ = writeln!(text, "claim '{}' DISAGREES: {}", claim.what, claim.seen);
+    }
+    let agreeing = report.claims.iter().filter(|claim| claim.outcome == Outcome::Agrees).count();
+    if agreeing > 0 {
+        let _ =
+            writeln!(text, "{agreeing} of {} claims of the scheme file agree with this analysis.", report.claims.len());
     }
     text.push_str("\nMatrices, eigenvalues and masks are exact.\n");
     text
