@@ -10,6 +10,8 @@
 //! 4. [`verdicts`]: what follows, and from which theorem?
 //! 5. [`report`]: tables and pictures.
 //!
+//! Curves have the same pipeline in small: [`scheme::curve`], [`refine::curve`], [`analysis::curve`], [`report::curve`].
+//!
 //! The same rules refine real meshes: [`mesh::io`] reads one, [`mesh::HalfEdgeMesh`] holds it, [`refine::Refiner`] refines it,
 //! [`analysis::limit`] pushes it to the limit by the masks, and [`analysis::verify`] checks these against it.
 //!

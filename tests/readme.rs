@@ -4,7 +4,7 @@
 use eigenring::report::boundary::{Variant, boundary};
 use eigenring::report::{Study, json};
 use eigenring::scheme::vocabulary::{Arrival, RuleKind, Vocabulary};
-use eigenring::scheme::{KEYS, Scheme, catalogue};
+use eigenring::scheme::{AnyScheme, KEYS, catalogue};
 use std::collections::BTreeSet;
 
 const README: &str = include_str!("../README.md");
@@ -41,8 +41,13 @@ fn the_scheme_files_of_the_readme_are_sound() {
     let whole: Vec<&&str> = files.iter().filter(|text| text.contains("name")).collect();
     assert!(whole.len() >= 2);
     for text in whole {
-        let scheme = Scheme::parse("readme", "README.md", text).unwrap_or_else(|faults| panic!("{faults}"));
-        eigenring::refine::check(&scheme, &[3, 4, 5, 6, 7, 12]).unwrap_or_else(|faults| panic!("{faults}"));
+        match AnyScheme::parse("readme", "README.md", text).unwrap_or_else(|faults| panic!("{faults}")) {
+            AnyScheme::Surface(scheme) => {
+                eigenring::refine::check(&scheme, &[3, 4, 5, 6, 7, 12]).unwrap_or_else(|faults| panic!("{faults}"));
+            }
+            AnyScheme::Curve(scheme) => drop(scheme.rules().unwrap_or_else(|faults| panic!("{faults}"))),
+            AnyScheme::Grid(_) => panic!("no grid is shown"),
+        }
     }
 }
 
@@ -74,6 +79,10 @@ fn the_json_contract_names_every_key() {
             study.report.add_boundary(found);
         }
         keys_of(&serde_json::from_str(&json(&study.report).unwrap()).unwrap(), &mut keys);
+    }
+    for id in ["b-spline", "bezier", "ternary-four-point"] {
+        let document = eigenring::report::curve::curve(&catalogue::curve(id).unwrap().unwrap(), 10, false).unwrap();
+        keys_of(&serde_json::from_str(&document.json).unwrap(), &mut keys);
     }
     for key in &keys {
         assert!(contract.contains(&format!("\"{key}\"")) || contract.contains(&format!("`{key}`")), "{key}");

@@ -1,14 +1,16 @@
 //! `analyze`: what does this scheme do, at these valences?
 
-use super::open::{BoundaryRules, open_with_rules};
+use super::open::{BoundaryRules, open_any};
 use super::valences::{Faces, Valences};
 use super::{Failure, failure, print};
 use clap::{Args, ValueEnum};
 use eigenring::refine::Obstacle;
+use eigenring::report::boundary::{self, Variant};
+use eigenring::report::curve::{self, Document};
+use eigenring::report::ranges;
 use eigenring::report::sweep::{self, Sweep, SweepRequest};
 use eigenring::report::{self, NoReport, Picture, Report, Study};
-use eigenring::report::{boundary, ranges};
-use eigenring::scheme::{Interval, Scheme};
+use eigenring::scheme::{AnyScheme, Interval, Scheme};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -18,7 +20,9 @@ const EXAMPLES: &str = "Examples:
   eigenring analyze my-scheme.toml --valence 3,4,7..9,50 --out my-report
   eigenring analyze modified-butterfly --set w=1/64 --format md
   eigenring analyze catmull-clark --valence 5 --boundary 1..6 --format json | less
-  eigenring analyze loop --boundary 1..8 --boundary-rules all";
+  eigenring analyze loop --boundary 1..8 --boundary-rules all
+  eigenring analyze four-point --set w=1/16
+  eigenring analyze bicubic";
 
 /// Analyses a scheme and writes its report: Markdown, LaTeX, CSV, JSON, and pictures as SVG and PNG.
 #[derive(Args)]
@@ -71,7 +75,52 @@ enum Format {
 
 impl Analyze {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let (mut scheme, variants) = open_with_rules(&self.scheme, &self.set, Some(&self.rules))?;
+        let (scheme, variants) = open_any(&self.scheme, &self.set, Some(&self.rules))?;
+        match scheme {
+            AnyScheme::Surface(scheme) => self.surface(*scheme, variants),
+            AnyScheme::Curve(scheme) => {
+                self.only_for_surfaces("curves")?;
+                let draw = !self.no_pictures && self.format.is_none();
+                self.document(&curve::curve(&scheme, self.digits.into(), draw)?)
+            }
+            AnyScheme::Grid(scheme) => {
+                self.only_for_surfaces("grids")?;
+                self.document(&curve::grid(&scheme)?)
+            }
+        }
+    }
+
+    /// Options that make no sense for other schemes are refused.
+    fn only_for_surfaces(&self, kind: &str) -> Result<(), Failure> {
+        let asked = [
+            ("--symbolic", !self.symbolic.is_empty()),
+            ("--sweep", self.sweep.is_some()),
+            ("--range", self.range.is_some()),
+            ("--boundary", self.boundary.is_some()),
+        ];
+        match asked.iter().find(|(_, asked)| *asked) {
+            Some((option, _)) => Err(failure(format!("{option} is for surfaces; this is a scheme for {kind}"))),
+            None => Ok(()),
+        }
+    }
+
+    /// Prints or writes the report of a curve or a grid.
+    fn document(&self, document: &Document) -> Result<(), Failure> {
+        match self.format {
+            Some(Format::Json) => print(&document.json),
+            Some(Format::Csv) => print(&document.csv()),
+            Some(Format::Md) => print(&document.markdown()),
+            Some(Format::Latex) => print(&document.latex()),
+            None => {
+                let folder = self.out.clone().unwrap_or_else(|| Path::new("reports").join(&document.scheme));
+                let texts = document.texts().into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
+                let written = write_files(texts, &document.pictures, &folder)?;
+                print(&format!("{}\n{}", document.terminal, files_line(&folder, &written)))
+            }
+        }
+    }
+
+    fn surface(self, mut scheme: Scheme, variants: Vec<Variant>) -> Result<(), Failure> {
         self.symbolic.iter().try_for_each(|name| scheme.leave_free(name.trim())).map_err(failure)?;
         let draw = !self.no_pictures && self.format.is_none();
         let bar = progress_bar(&self.valence.0);
@@ -177,6 +226,11 @@ fn write(study: &Study, folder: &Path) -> Result<Vec<String>, Failure> {
     if !study.report.boundary.is_empty() {
         files.push(("boundary.csv".to_string(), boundary::boundary_csv(&study.report.boundary).into_bytes()));
     }
+    write_files(files, pictures, folder)
+}
+
+/// Writes texts, and pictures as SVG and PNG, into a folder; gives their names.
+fn write_files(mut files: Vec<(String, Vec<u8>)>, pictures: &[Picture], folder: &Path) -> Result<Vec<String>, Failure> {
     for (picture, png) in pictures.iter().zip(painted(pictures)) {
         let png = png.map_err(|error| failure(format!("the picture {}: {error}", picture.name)))?;
         files.push((format!("{}.svg", picture.name), picture.svg.clone().into_bytes()));

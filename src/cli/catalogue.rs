@@ -7,7 +7,8 @@ use eigenring::analysis::Analyzer;
 use eigenring::refine::is_dual;
 use eigenring::report::regular::{RegularReport, regular_report};
 use eigenring::report::write_whole;
-use eigenring::scheme::{Scheme, catalogue};
+use eigenring::scheme::curve::Rules;
+use eigenring::scheme::{RuleBook, Scheme, catalogue};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -23,7 +24,7 @@ impl Schemes {
     pub(crate) fn run(self) -> Result<(), Failure> {
         match self.name {
             None => print(&listing()?),
-            Some(name) => match catalogue::scheme(&name) {
+            Some(name) => match catalogue::all().find(|listed| listed.id == name) {
                 Some(listed) => print(listed.text),
                 None => Err(failure(format!("there is no scheme `{name}`; `eigenring schemes` lists them"))),
             },
@@ -49,6 +50,7 @@ fn listing() -> Result<String, Failure> {
         let _ = writeln!(text, "\n{title}");
         group.into_iter().for_each(|scheme| text.push_str(&line(scheme)));
     }
+    text.push_str(&others()?);
     text.push_str(
         "\nAll are linear and stationary. The smoothness on regular meshes is proved here, from the symbol; that elsewhere is\n\
          the literature's, and `eigenring analyze NAME` looks at both.\n\
@@ -77,6 +79,32 @@ fn line(scheme: &Scheme) -> String {
     text
 }
 
+/// The schemes for curves and grids.
+fn others() -> Result<String, Failure> {
+    let set = |book: &RuleBook| {
+        let names: Vec<&str> = book.parameters.iter().map(|p| p.name.as_str()).collect();
+        if names.is_empty() { String::new() } else { format!(", parameter {}", names.join(", ")) }
+    };
+    let mut text = "On curves\n".to_string();
+    for listed in catalogue::CURVES {
+        let Some(scheme) = catalogue::curve(listed.id).transpose()? else { continue };
+        let arity = match scheme.rules()? {
+            Rules::Mask(mask, _) => format!("arity {}", mask.arity),
+            Rules::Halves(_) => "polygons".to_string(),
+        };
+        let told = scheme.form_word();
+        let _ =
+            writeln!(text, "  {:<26} {} ({arity}, told as {told}{})", scheme.id, scheme.book.title, set(&scheme.book));
+    }
+    text.push_str("On grids\n");
+    for listed in catalogue::GRIDS {
+        let Some(scheme) = catalogue::grid(listed.id).transpose()? else { continue };
+        let [a, b] = &scheme.factors;
+        let _ = writeln!(text, "  {:<26} {} ({} x {})", scheme.id, scheme.book.title, a.scheme, b.scheme);
+    }
+    Ok(text)
+}
+
 /// Starts a scheme file of your own from one of the catalogue.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  eigenring new my-scheme --like loop\n  eigenring analyze my-scheme.toml")]
@@ -90,7 +118,7 @@ pub(crate) struct New {
 
 impl New {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let listed = catalogue::scheme(&self.like);
+        let listed = catalogue::all().find(|listed| listed.id == self.like);
         let listed = listed
             .ok_or_else(|| failure(format!("there is no scheme `{}`; `eigenring schemes` lists them", self.like)))?;
         let stem = self.name.trim_end_matches(".toml");
@@ -110,7 +138,8 @@ impl New {
             .map_err(|error| failure(format!("`{}` can't be written: {error}", path.display())))?;
         let shown = path.display().to_string();
         let quoted = if shown.contains(char::is_whitespace) { format!("\"{shown}\"") } else { shown.clone() };
-        print(&format!("Written: {shown}\nNow try: eigenring analyze {quoted} --valence 3..12\n"))
+        let valences = if catalogue::scheme(&self.like).is_some() { " --valence 3..12" } else { "" };
+        print(&format!("Written: {shown}\nNow try: eigenring analyze {quoted}{valences}\n"))
     }
 }
 
@@ -127,7 +156,9 @@ fn starter(text: &str, title: &str, like: &str) -> String {
         .iter()
         .map(|line| if line.starts_with("name ") { format!("name     = \"{title}\"") } else { (*line).to_string() })
         .collect();
-    format!("{}\n{}\n{CLAIMS}", HEAD.replace("LIKE", like), named.join("\n").trim_end())
+    let surface = catalogue::scheme(like).is_some();
+    let (head, claims) = if surface { (HEAD, CLAIMS) } else { (CURVE_HEAD, "") };
+    format!("{}\n{}\n{claims}", head.replace("LIKE", like), named.join("\n").trim_end())
 }
 
 const HEAD: &str = "\
@@ -137,6 +168,14 @@ const HEAD: &str = "\
 # the face) that the rule is told around. The weights of every rule must sum to 1 for every n. Formulas know numbers,
 # + - * / ^, parentheses, pi, cos, sin, sqrt, binom, min and max; j is a point's index in its class (ring[0], ring[1], ...);
 # names may be defined under [let], numbers that you want to try out under [parameters] (w = \"1/16\", then --set w=1/20).
+";
+
+const CURVE_HEAD: &str = "\
+# A scheme like LIKE, to be changed.
+#
+# Weights are formulas: a mask with the index of its first weight, the symbol in z, or averaging weights after a split at
+# midpoints. The weights with equal index modulo the arity must sum to 1. Numbers that you want to try out stand under
+# [parameters] (w = \"1/16\", then --set w=1/20).
 ";
 
 const CLAIMS: &str = "

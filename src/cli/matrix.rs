@@ -1,13 +1,15 @@
 //! `matrix`: which numbers stand in the local subdivision matrix, or in one of its blocks?
 
 use super::analyze::explain;
-use super::open::open_checked;
+use super::open::{open_any, open_checked};
 use super::valences::one_valence;
 use super::{Failure, failure, print};
 use clap::{Args, ValueEnum};
 use eigenring::analysis::Analyzer;
 use eigenring::analysis::blocks::Blocks;
 use eigenring::analysis::local::{LocalMatrix, MAX_DENSE};
+use eigenring::scheme::AnyScheme;
+use eigenring::scheme::curve::CurveScheme;
 use num_complex::Complex64;
 use serde_json::json;
 use std::fmt::Write;
@@ -18,14 +20,21 @@ use std::fmt::Write;
     after_help = "Labels: c is the centre; s:i,j is the point that lies i edges straight along spoke s and, turned \
     counter-clockwise once, j edges over. A block acts on y, where x at (s; orbit t) = y_t exp(2 pi i k s/n).\n\n\
     Examples:\n  eigenring matrix loop --valence 5\n  eigenring matrix catmull-clark -n 5 --block 1\n  \
-    eigenring matrix doo-sabin -n 1000 --format mtx > doo-sabin.mtx"
+    eigenring matrix doo-sabin -n 1000 --format mtx > doo-sabin.mtx\n  eigenring matrix b-spline --at vertex --full\n  \
+    eigenring matrix b-spline --set d=4 --at spline"
 )]
 pub(crate) struct Matrix {
     /// A scheme of the catalogue, or the path of a scheme file
     scheme: String,
     /// The valence n
     #[arg(long, short = 'n', value_name = "N", value_parser = one_valence)]
-    valence: usize,
+    valence: Option<usize>,
+    /// For curves: vertex, mid-edge, start or end; or spline, for H of the matrix form
+    #[arg(long, value_name = "POINT", default_value = "vertex")]
+    at: String,
+    /// For curves: all points that decide the curve around, and not its value alone
+    #[arg(long)]
+    full: bool,
     /// The frequency k, 0..n-1: print the block B_k
     #[arg(long, short, value_name = "K")]
     block: Option<usize>,
@@ -59,16 +68,18 @@ struct Labelled {
 
 impl Matrix {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        if let Some(k) = self.block.filter(|k| *k >= self.valence) {
-            return Err(failure(format!(
-                "the blocks at n = {} are 0 to {}; there is no block {k}",
-                self.valence,
-                self.valence - 1
-            )));
+        if let AnyScheme::Curve(scheme) = open_any(&self.scheme, &self.set, None)?.0 {
+            return self.of_curve(&scheme);
         }
-        let (scheme, _) = open_checked(&self.scheme, &self.set, &[self.valence])?;
+        let missing = || failure("the matrix of a scheme for surfaces needs a valence\n  help: add --valence 5");
+        let valence = self.valence.ok_or_else(missing)?;
+        if let Some(k) = self.block.filter(|k| *k >= valence) {
+            let last = valence - 1;
+            return Err(failure(format!("the blocks at n = {valence} are 0 to {last}; there is no block {k}")));
+        }
+        let (scheme, _) = open_checked(&self.scheme, &self.set, &[valence])?;
         let analyzer = Analyzer::new(&scheme).map_err(|obstacle| explain(&scheme, obstacle))?;
-        let local = analyzer.local_matrix(self.valence).map_err(|obstacle| explain(&scheme, obstacle))?;
+        let local = analyzer.local_matrix(valence).map_err(|obstacle| explain(&scheme, obstacle))?;
         if self.block.is_none() && self.format != Format::Mtx && local.size() > MAX_DENSE {
             let message = format!("the matrix has {} rows, more than {MAX_DENSE}", local.size());
             return Err(failure(format!(
@@ -83,12 +94,34 @@ impl Matrix {
             Some(k) => block(&local, k),
             None => whole(&local),
         };
-        let name = self.block.map_or(format!("S_{}", self.valence), |k| format!("B_{k}"));
+        let name = self.block.map_or(format!("S_{valence}"), |k| format!("B_{k}"));
         print(&match self.format {
             Format::Text => text(&matrix),
             Format::Csv => csv(&matrix),
             Format::Latex => latex(&matrix, &name),
-            Format::Json => json_text(&matrix, &scheme.id, self.valence, self.block),
+            Format::Json => json_text(&matrix, &scheme.id, Some(valence), self.block),
+            Format::Mtx => market(&matrix, &name),
+        })
+    }
+}
+
+impl Matrix {
+    fn of_curve(&self, scheme: &CurveScheme) -> Result<(), Failure> {
+        if self.valence.is_some() || self.block.is_some() {
+            return Err(failure(format!("{} is a scheme for curves, which have no valence", scheme.book.title)));
+        }
+        let (name, local) = super::curve::matrix(scheme, &self.at, self.full)?;
+        let rows = local.matrix.iter().map(|row| {
+            let entries = row.iter().enumerate().filter(|(_, value)| !value.is_zero());
+            entries.map(|(column, value)| (column, Complex64::new(value.to_f64().value(), 0.0))).collect()
+        });
+        let labels = local.indices.iter().map(|index| format!("p[{index}]")).collect();
+        let matrix = Labelled { labels, rows: rows.collect(), is_complex: false };
+        print(&match self.format {
+            Format::Text => super::curve::matrix_text(&local),
+            Format::Csv => csv(&matrix),
+            Format::Latex => latex(&matrix, &name),
+            Format::Json => json_text(&matrix, &scheme.id, None, None),
             Format::Mtx => market(&matrix, &name),
         })
     }
@@ -177,7 +210,7 @@ fn latex(matrix: &Labelled, name: &str) -> String {
     text + "\\end{array}\n\\]\n"
 }
 
-fn json_text(matrix: &Labelled, scheme: &str, n: usize, block: Option<usize>) -> String {
+fn json_text(matrix: &Labelled, scheme: &str, n: Option<usize>, block: Option<usize>) -> String {
     let value = |value: Complex64| {
         if matrix.is_complex { json!([value.re + 0.0, value.im + 0.0]) } else { json!(value.re + 0.0) }
     };

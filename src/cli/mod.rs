@@ -6,6 +6,8 @@
 mod analyze;
 mod catalogue;
 mod claims;
+mod curve;
+mod grid;
 mod matrix;
 mod memory;
 mod mesh_file;
@@ -31,6 +33,8 @@ const EXAMPLES: &str = "Examples:
   eigenring refine loop in.obj -o out.ply -l 3     a mesh, refined three times
   eigenring limit loop in.obj -o out.ply           its vertices on the limit surface, with normals
   eigenring verify loop --valence 3..12            the masks against deep refinement
+  eigenring analyze four-point --set w=1/16        a scheme for curves
+  eigenring refine chaikin in.csv -o out.svg -l 5  a polygon
 
 Exit status: 0 done, 1 a check says no (verify, claims), 2 bad usage or bad input.";
 

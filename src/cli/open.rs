@@ -5,28 +5,48 @@ use clap::Args;
 use eigenring::fault::nearest;
 use eigenring::refine;
 use eigenring::report::boundary::Variant;
-use eigenring::scheme::{MAX_FILE_BYTES, RuleBook, RuleSum, Scheme, catalogue};
+use eigenring::scheme::{AnyScheme, MAX_FILE_BYTES, RuleBook, RuleSum, Scheme, catalogue};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// The scheme of a name of the catalogue, or of a file, with its parameters set.
+/// The scheme for surfaces of a name of the catalogue, or of a file, with its parameters set.
 pub(crate) fn open(name: &str, settings: &[String]) -> Result<Scheme, Failure> {
     Ok(open_with_rules(name, settings, None)?.0)
 }
 
-/// A scheme, and the boundary files to be taken with it: those asked for, `all` that it names, or its first. Parameters are those of the scheme
-/// or of these files.
+/// The same with the boundary files asked for.
 pub(crate) fn open_with_rules(
     name: &str,
     settings: &[String],
     rules: Option<&BoundaryRules>,
 ) -> Result<(Scheme, Vec<Variant>), Failure> {
-    let mut scheme = match catalogue::open(name) {
+    let (scheme, variants) = open_any(name, settings, rules)?;
+    match scheme {
+        AnyScheme::Surface(scheme) => Ok((*scheme, variants)),
+        other => {
+            let kind = if matches!(other, AnyScheme::Grid(_)) { "grids" } else { "curves" };
+            let title = &other.book().title;
+            Err(failure(format!("{title} is a scheme for {kind}; this command takes schemes for surfaces")))
+        }
+    }
+}
+
+/// A scheme of whatever kind, and the boundary files to be taken with it: those asked for, `all` that it names, or its first. Parameters are
+/// those of the scheme or of these files.
+pub(crate) fn open_any(
+    name: &str,
+    settings: &[String],
+    rules: Option<&BoundaryRules>,
+) -> Result<(AnyScheme, Vec<Variant>), Failure> {
+    let mut scheme = match catalogue::any(name) {
         Some(scheme) => scheme?,
-        None => Scheme::parse(&short_name(name), name, &read(name)?)?,
+        None => AnyScheme::parse(&short_name(name), name, &read(name)?)?,
     };
-    let mut variants = rules.map_or(Ok(vec![]), |rules| rules.open(&scheme))?;
+    let mut variants = match (&scheme, rules) {
+        (AnyScheme::Surface(scheme), Some(rules)) => rules.open(scheme)?,
+        _ => vec![],
+    };
     let mut set: Vec<&str> = Vec::new();
     for setting in settings {
         let (parameter, value) = setting
@@ -40,7 +60,7 @@ pub(crate) fn open_with_rules(
         let knows = |book: &RuleBook| book.parameters.iter().any(|own| own.name == parameter);
         let mut books: Vec<&mut RuleBook> =
             variants.iter_mut().map(|variant| &mut variant.book).filter(|book| knows(book)).collect();
-        if knows(&scheme.book) || books.is_empty() {
+        if knows(scheme.book()) || books.is_empty() {
             scheme.set(parameter, value).map_err(failure)?;
         }
         books.iter_mut().try_for_each(|book| book.set(parameter, value)).map_err(failure)?;
@@ -140,7 +160,7 @@ fn not_opened(name: &str, error: &std::io::Error) -> Failure {
     if error.kind() != std::io::ErrorKind::NotFound {
         return failure(format!("`{name}` can't be opened: {error}"));
     }
-    let known: Vec<&str> = catalogue::SCHEMES.iter().map(|listed| listed.id).collect();
+    let known: Vec<&str> = catalogue::all().map(|listed| listed.id).collect();
     let hint = match nearest(name, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("the schemes are {}; a file is given by its path", known.join(", ")),

@@ -2,7 +2,7 @@
 
 use super::analyze::explain;
 use super::mesh_file::{Loaded, Reading, check_destination, creases_of, save, statistics, statistics_of_faces};
-use super::open::{BoundaryRules, only, open_with_rules};
+use super::open::{BoundaryRules, only, open_any};
 use super::{Failure, failure, memory, say};
 use clap::{Args, ValueEnum};
 use eigenring::analysis::boundary::MAX_FACES;
@@ -11,13 +11,13 @@ use eigenring::analysis::local::MAX_VALENCE;
 use eigenring::mesh::io::{Coordinates, Output};
 use eigenring::mesh::{Connectivity, HalfEdgeMesh, Tags};
 use eigenring::refine::{Coordinate, Counts, Level, NotRefinable, Obstacle, Refined, Refiner, Route};
-use eigenring::scheme::{RuleBook, Scheme};
+use eigenring::scheme::{AnyScheme, RuleBook, Scheme};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// Refines a mesh: OBJ, PLY, OFF or STL in; these or binary glTF out.
+/// Refines a mesh: OBJ, PLY, OFF or STL in; these or binary glTF out. Schemes for curves refine polygons: CSV, JSON, SVG or OBJ.
 #[derive(Args)]
 #[command(
     after_help = "Creases are read from OBJ lines such as `t crease 1/2 3.5`: the edge between vertices 1 and 2, \
@@ -56,10 +56,10 @@ pub(crate) struct Limit {
 struct Job {
     /// A scheme of the catalogue, or the path of a scheme file
     scheme: String,
-    /// The mesh: OBJ, PLY, OFF or STL
+    /// The mesh: OBJ, PLY, OFF or STL; or polygons: CSV, JSON, SVG or OBJ
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// The file to be written: OBJ, PLY, OFF, STL or GLB
+    /// The file to be written: OBJ, PLY, OFF, STL or GLB; or CSV, JSON, SVG or OBJ
     #[arg(long, short, value_name = "OUT")]
     out: PathBuf,
     /// Set a parameter of the scheme, for example w=1/32; may be given several times
@@ -69,6 +69,9 @@ struct Job {
     rules: BoundaryRules,
     #[command(flatten)]
     reading: Reading,
+    /// For curves: close the polygons of files that can't tell
+    #[arg(long)]
+    closed: bool,
     /// The number of threads [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -99,13 +102,20 @@ impl Limit {
 
 impl Job {
     fn run(&self, levels: usize, to_limit: bool) -> Result<(), Failure> {
+        let (scheme, variants) = open_any(&self.scheme, &self.set, Some(&self.rules))?;
+        let scheme = match scheme {
+            AnyScheme::Surface(scheme) => *scheme,
+            AnyScheme::Curve(scheme) => {
+                return super::curve::refine(&scheme, (&self.input, &self.out), self.closed, levels, to_limit);
+            }
+            AnyScheme::Grid(scheme) => return super::grid::refine(&scheme, (&self.input, &self.out), levels, to_limit),
+        };
         check_destination(&self.out)?;
         let loaded = self.reading.load(&self.input)?;
         say(&statistics("read", &loaded.mesh));
         let threads = self.threads.map_or(0, usize::from);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.map_err(|error| failure(format!("{threads} threads can't be started: {error}")))?;
-        let (scheme, variants) = open_with_rules(&self.scheme, &self.set, Some(&self.rules))?;
         let book = only(variants)?;
         eigenring::refine::check(&scheme, &valences_of(&loaded.mesh, &scheme))?;
         check_rules(&scheme, book.as_ref(), &loaded.mesh)?;

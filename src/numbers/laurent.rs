@@ -67,6 +67,19 @@ impl Laurent {
         }
     }
 
+    /// The exponents of a name with their coefficients, where this is a sum of its powers with rational coefficients.
+    pub fn powers_of(&self, name: &str) -> Option<Vec<(i64, RBig)>> {
+        let power = |(monomial, coefficient): (&Monomial, &RBig)| {
+            let exponent = match monomial.iter().collect::<Vec<_>>().as_slice() {
+                [] => 0,
+                [(Atom::Name(own), exponent)] if own == name => **exponent,
+                _ => return None,
+            };
+            Some((exponent, coefficient.clone()))
+        };
+        self.terms.iter().map(power).collect()
+    }
+
     /// The sum of this over `j = 0..n-1`, where it can be read off: terms without `j` count n times, and a term that is
     /// linear in one `cos(2*pi*p*j/n)` or `sin(2*pi*p*j/n)` with n not dividing p sums to nothing (a sum of roots of unity).
     pub fn sum_over_ring(&self, size: RingSize) -> Option<Laurent> {

@@ -5,9 +5,11 @@
 
 mod births;
 mod compact;
+pub mod curve;
 mod ends;
 mod exact_weights;
 mod gather;
+pub mod grid;
 mod growth;
 mod names;
 mod pass;

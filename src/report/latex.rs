@@ -1,7 +1,7 @@
 //! The report as a LaTeX document that compiles as it stands (booktabs, longtable).
 
 use super::Figure;
-use super::markdown::introduction;
+use super::markdown::{Parts, introduction};
 use super::model::Report;
 use super::tables::{Cell, Table, tables};
 use std::fmt::Write;
@@ -23,23 +23,31 @@ const HEAD: &str = r"\documentclass[10pt]{article}
 
 /// The report; pictures are taken in where their PNG files lie beside the document.
 pub fn latex(report: &Report, figures: &[Figure]) -> String {
-    let mut text = format!("{HEAD}\\section*{{{}}}\n{}\n", escaped(&report.title), escaped(&introduction(report)));
-    for figure in figures {
-        let _ = writeln!(text, "\\reportpicture{{{}}}{{{}}}", figure.name, escaped(&figure.caption));
+    let (title, introduction, tables) = (&report.title, introduction(report), tables(report));
+    Parts { title, introduction: &introduction, tables: &tables, figures, sources: &report.sources }.latex()
+}
+
+impl Parts<'_> {
+    /// The document in LaTeX.
+    pub(super) fn latex(&self) -> String {
+        let mut text = format!("{HEAD}\\section*{{{}}}\n{}\n", escaped(self.title), escaped(self.introduction));
+        for figure in self.figures {
+            let _ = writeln!(text, "\\reportpicture{{{}}}{{{}}}", figure.name, escaped(&figure.caption));
+        }
+        for table in self.tables {
+            let (title, note) = (escaped(&table.title), escaped(&table.note));
+            let _ = write!(text, "\n\\subsection*{{{title}}}\n{note}\n\n{}", rows(table));
+        }
+        text.push_str("\n\\begin{thebibliography}{99}\n");
+        for (index, source) in self.sources.iter().enumerate() {
+            let _ = writeln!(text, "\\bibitem{{r{index}}} {}: {}", escaped(&source.key), escaped(&source.citation));
+        }
+        if self.sources.is_empty() {
+            text.push_str("\\bibitem{none} no sources\n");
+        }
+        text.push_str("\\end{thebibliography}\n\\end{document}\n");
+        text
     }
-    for table in tables(report) {
-        let _ =
-            write!(text, "\n\\subsection*{{{}}}\n{}\n\n{}", escaped(&table.title), escaped(&table.note), rows(&table));
-    }
-    text.push_str("\n\\begin{thebibliography}{99}\n");
-    for (index, source) in report.sources.iter().enumerate() {
-        let _ = writeln!(text, "\\bibitem{{r{index}}} {}: {}", escaped(&source.key), escaped(&source.citation));
-    }
-    if report.sources.is_empty() {
-        text.push_str("\\bibitem{none} no sources\n");
-    }
-    text.push_str("\\end{thebibliography}\n\\end{document}\n");
-    text
 }
 
 /// Tables of more rows than this may break across pages.

@@ -1,28 +1,46 @@
 //! The report as Markdown.
 
 use super::Figure;
-use super::model::{Report, ValenceReport};
+use super::model::{Reference, Report, ValenceReport};
 use super::tables::{Table, tables};
 use std::fmt::Write;
 
 /// The report; pictures are linked by file name where they are given.
 pub fn markdown(report: &Report, figures: &[Figure]) -> String {
-    let mut text = format!("# {}\n\n{}\n", report.title, introduction(report));
-    for figure in figures.iter().filter(|figure| figure.name == "stencils") {
-        push_figure(&mut text, figure);
-    }
-    for table in tables(report) {
-        let _ = write!(text, "\n## {}\n\n{}\n\n{}", table.title, escaped(&table.note), rows(&table));
-        for figure in figures.iter().filter(|figure| figure.belongs_to == table.title) {
+    let (title, introduction, tables) = (&report.title, introduction(report), tables(report));
+    let parts = Parts { title, introduction: &introduction, tables: &tables, figures, sources: &report.sources };
+    parts.markdown(&format!("\n## The conditions\n\n{}", conditions(report)))
+}
+
+/// What a document is made of, whatever the kind of scheme.
+pub(super) struct Parts<'a> {
+    pub(super) title: &'a str,
+    pub(super) introduction: &'a str,
+    pub(super) tables: &'a [Table],
+    pub(super) figures: &'a [Figure],
+    pub(super) sources: &'a [Reference],
+}
+
+impl Parts<'_> {
+    /// The document in Markdown, with a part before the sources.
+    pub(super) fn markdown(&self, conditions: &str) -> String {
+        let mut text = format!("# {}\n\n{}\n", self.title, self.introduction);
+        for figure in self.figures.iter().filter(|figure| figure.name == "stencils") {
             push_figure(&mut text, figure);
         }
+        for table in self.tables {
+            let _ = write!(text, "\n## {}\n\n{}\n\n{}", table.title, escaped(&table.note), rows(table));
+            for figure in self.figures.iter().filter(|figure| figure.belongs_to == table.title) {
+                push_figure(&mut text, figure);
+            }
+        }
+        text.push_str(conditions);
+        text.push_str("\n## Sources\n\n");
+        for source in self.sources {
+            let _ = writeln!(text, "- **{}**: {}", source.key, escaped(&source.citation));
+        }
+        text
     }
-    let _ = write!(text, "\n## The conditions\n\n{}", conditions(report));
-    text.push_str("\n## Sources\n\n");
-    for source in &report.sources {
-        let _ = writeln!(text, "- **{}**: {}", source.key, escaped(&source.citation));
-    }
-    text
 }
 
 /// What was analysed, in a paragraph.

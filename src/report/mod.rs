@@ -5,6 +5,7 @@
 
 pub mod boundary;
 mod csv;
+pub mod curve;
 mod files;
 pub mod formulas;
 mod latex;

@@ -420,7 +420,7 @@ fn references(scheme: &Scheme, valences: &[ValenceReport], claims: &[ClaimCheck]
     keys.into_iter().map(|key| reference(key)).collect()
 }
 
-fn reference(key: &str) -> Reference {
+pub(super) fn reference(key: &str) -> Reference {
     let citation = catalogue::sources().get(key).map_or(key.to_string(), catalogue::Source::citation);
     Reference { key: key.to_string(), citation }
 }

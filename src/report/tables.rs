@@ -4,7 +4,7 @@
 
 use super::formulas::{AllValencesReport, Formula};
 use super::model::{EigenvalueReport, Quantity, Report, ValenceReport, centre_weight};
-use crate::verdicts::{CurvatureClass, Decision, Evidence, Outcome, Verdict, digits};
+use crate::verdicts::{ClaimCheck, CurvatureClass, Decision, Evidence, Outcome, Verdict, digits};
 
 /// Frequencies from this one on are left out of tables that have a column for each; the JSON and CSV forms have all.
 const MOST_FREQUENCIES: usize = 7;
@@ -87,7 +87,7 @@ pub struct Table {
 }
 
 impl Table {
-    fn new(title: &str, note: &str, head: Vec<String>, rows: Vec<Vec<Cell>>) -> Table {
+    pub(super) fn new(title: &str, note: &str, head: Vec<String>, rows: Vec<Vec<Cell>>) -> Table {
         Table { title: title.to_string(), note: note.to_string(), head, rows }
     }
 }
@@ -110,7 +110,7 @@ pub fn tables(report: &Report) -> Vec<Table> {
     tables.extend(super::ranges::table(&report.ranges));
     tables.extend(report.sweep.as_ref().map(super::sweep::table));
     if !report.claims.is_empty() {
-        tables.push(claims(report));
+        tables.push(claims(&report.claims, "all n"));
     }
     tables.retain(|table| !table.rows.is_empty());
     tables
@@ -383,15 +383,16 @@ pub fn verdict_word(verdict: &Verdict) -> &'static str {
     }
 }
 
-fn claims(report: &Report) -> Table {
-    let rows = report.claims.iter().map(|claim| {
+/// The claims of a scheme file; `everywhere` is said of those without a condition.
+pub(super) fn claims(claims: &[ClaimCheck], everywhere: &str) -> Table {
+    let rows = claims.iter().map(|claim| {
         let value = claim.equals.clone().unwrap_or("-".to_string());
         let outcome = match claim.outcome {
             Outcome::Agrees => "agrees",
             Outcome::Disagrees => "DISAGREES",
             Outcome::Undecided => "undecided",
         };
-        let condition = claim.condition.clone().unwrap_or("all n".to_string());
+        let condition = claim.condition.clone().unwrap_or(everywhere.to_string());
         let source = if claim.source.is_empty() { "-".to_string() } else { claim.source.join(", ") };
         [claim.what.clone(), value, condition, source, outcome.to_string(), claim.seen.clone()].map(Cell::from).to_vec()
     });

@@ -2,7 +2,9 @@
 //!
 //! Files under `schemes/`, in the format that users write, embedded into the program and read through the same door.
 
-use super::{RuleBook, Scheme};
+use super::curve::CurveScheme;
+use super::grid::GridScheme;
+use super::{AnyScheme, RuleBook, Scheme};
 use crate::fault::Faults;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -40,6 +42,31 @@ pub const SCHEMES: [Listed; 13] = listed! {
     "midpoint" => "quad/midpoint.toml",
 };
 
+/// Every scheme for curves of the catalogue.
+pub const CURVES: [Listed; 13] = listed! {
+    "bezier" => "curve/bezier.toml",
+    "chaikin" => "curve/chaikin.toml",
+    "b-spline" => "curve/b-spline.toml",
+    "lane-riesenfeld" => "curve/lane-riesenfeld.toml",
+    "cubic-b-spline-natural" => "curve/cubic-b-spline-natural.toml",
+    "cubic-b-spline-clamped" => "curve/cubic-b-spline-clamped.toml",
+    "corner-cutting" => "curve/corner-cutting.toml",
+    "four-point" => "curve/four-point.toml",
+    "six-point" => "curve/six-point.toml",
+    "deslauriers-dubuc" => "curve/deslauriers-dubuc.toml",
+    "ternary-b-spline" => "curve/ternary-b-spline.toml",
+    "ternary-four-point" => "curve/ternary-four-point.toml",
+    "quaternary-b-spline" => "curve/quaternary-b-spline.toml",
+
+
+};
+
+/// Every tensor product of the catalogue.
+pub const GRIDS: [Listed; 2] = listed! {
+    "biquadratic" => "grid/biquadratic.toml",
+    "bicubic" => "grid/bicubic.toml",
+};
+
 /// Every boundary file of the catalogue.
 pub const BOUNDARIES: [Listed; 4] = listed! {
     "cubic" => "boundary/cubic.toml",
@@ -51,6 +78,37 @@ pub const BOUNDARIES: [Listed; 4] = listed! {
 /// The file of a scheme of the catalogue.
 pub fn scheme(id: &str) -> Option<Listed> {
     SCHEMES.into_iter().find(|listed| listed.id == id)
+}
+
+/// Every scheme of the catalogue, of whatever kind.
+pub fn all() -> impl Iterator<Item = Listed> {
+    SCHEMES.into_iter().chain(CURVES).chain(GRIDS)
+}
+
+/// The scheme of a catalogue file, of whatever kind.
+///
+/// # Errors
+/// The file's faults; `None` when the catalogue has no such name.
+pub fn any(id: &str) -> Option<Result<AnyScheme, Faults>> {
+    all().find(|listed| listed.id == id).map(|listed| AnyScheme::parse(id, &format!("{id}.toml"), listed.text))
+}
+
+/// The scheme for curves of a catalogue file.
+///
+/// # Errors
+/// The file's faults; `None` when the catalogue has no such name.
+pub fn curve(id: &str) -> Option<Result<CurveScheme, Faults>> {
+    let listed = CURVES.into_iter().find(|listed| listed.id == id)?;
+    Some(CurveScheme::parse(id, &format!("{id}.toml"), listed.text))
+}
+
+/// The tensor product of a catalogue file.
+///
+/// # Errors
+/// The file's faults; `None` when the catalogue has no such name.
+pub fn grid(id: &str) -> Option<Result<GridScheme, Faults>> {
+    let listed = GRIDS.into_iter().find(|listed| listed.id == id)?;
+    Some(GridScheme::parse(id, &format!("{id}.toml"), listed.text))
 }
 
 /// The scheme of a catalogue file.

@@ -55,7 +55,7 @@ impl RuleBook {
     /// # Errors
     /// As [`Scheme::check`].
     pub fn check(&self, counts: &[usize], regular: usize) -> Result<Vec<RuleSum>, Faults> {
-        let mut faults: Vec<Fault> = self.parameters.iter().filter_map(|p| self.check_parameter(p).err()).collect();
+        let mut faults: Vec<Fault> = self.parameter_faults();
         faults.extend(self.passes.iter().filter_map(|pass| self.check_repeat(pass).err()));
         let mut sums = self.like.as_ref().map_or(Ok(Vec::new()), |like| like.check(counts, regular))?;
         sums.retain(|sum| !self.rules.contains_key(&sum.kind));
@@ -169,6 +169,11 @@ impl RuleBook {
         }
         let message = format!("a pass is made a whole number of times, 0 to {MOST_PASSES}, not {value}");
         Err(Fault::at(placed.span.clone(), message, "repeated so often"))
+    }
+
+    /// What is wrong with the values of parameters.
+    pub(super) fn parameter_faults(&self) -> Vec<Fault> {
+        self.parameters.iter().filter_map(|p| self.check_parameter(p).err()).collect()
     }
 
     fn check_parameter(&self, parameter: &Parameter) -> Result<(), Fault> {

@@ -4,17 +4,21 @@
 //! the built-in ones are such files too ([`catalogue`]). A scheme knows positions by name and does not know meshes: weights
 //! meet topology in [`crate::refine`].
 
+mod any;
 pub mod catalogue;
 mod check;
 mod claim;
 mod classification;
+pub mod curve;
 mod evaluate;
 pub mod formula;
+pub mod grid;
 mod interval;
 mod parameters;
 mod parse;
 pub mod vocabulary;
 
+pub use any::AnyScheme;
 pub(crate) use check::class_size;
 pub use check::{RuleSum, SUM_TOLERANCE};
 pub use claim::{BoundaryClaim, BoundaryQuantity, Claim, Quantity};

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 const AGREE: f64 = 1e-12;
 
 /// How far the value may be off that is claimed by this formula.
-fn tolerance(formula: &str) -> f64 {
+pub(super) fn tolerance(formula: &str) -> f64 {
     match formula.trim().split_once('.') {
         Some((whole, digits)) if format!("{whole}{digits}").bytes().all(|byte| byte.is_ascii_digit()) => {
             AGREE + 0.5 * libm::pow(10.0, -(digits.len() as f64))

@@ -6,10 +6,12 @@
 mod boundary;
 mod boundary_claims;
 mod claims;
+mod curve;
 
 pub use boundary::c1_up_to_boundary;
 pub use boundary_claims::check_boundary_claims;
 pub use claims::{ClaimCheck, Outcome, check_claims};
+pub use curve::{CurveFacts, check_curve_claims};
 
 use crate::analysis::Analysis;
 use crate::analysis::exact::{Arithmetic, ExactAnalysis, ExactEigenvalue};

@@ -14,6 +14,7 @@
 //! What a format can't hold, and what a reader leaves out of a file, is said in notes; nothing is left out in silence.
 
 mod bad_file;
+pub mod curve;
 mod format;
 mod gather;
 mod left_out;

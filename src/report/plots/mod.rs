@@ -7,6 +7,7 @@ mod axes;
 mod canvas;
 mod charmap;
 mod curvature;
+mod curve;
 mod eigenvalues;
 mod fan;
 mod formulas;
@@ -18,6 +19,7 @@ mod prettify;
 mod stencils;
 mod sweep;
 
+pub use curve::pictures as curve_pictures;
 pub use png::png;
 pub use sweep::picture as sweep_picture;
 

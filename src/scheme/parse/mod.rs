@@ -5,6 +5,8 @@
 
 mod boundary_claims;
 mod claims;
+mod curve;
+mod grid;
 mod names;
 mod passes;
 mod rules;
@@ -23,7 +25,7 @@ use toml::de::{DeTable, DeValue};
 pub const MAX_FILE_BYTES: usize = 1 << 16;
 
 /// Every key of a scheme file and of a boundary file, as the README's table lists them.
-pub const KEYS: [&str; 29] = [
+pub const KEYS: [&str; 42] = [
     "name",
     "mesh",
     "split",
@@ -53,6 +55,19 @@ pub const KEYS: [&str; 29] = [
     "like",
     "triangles, quads",
     "claims.at",
+    "arity",
+    "mask",
+    "taps",
+    "first",
+    "symbol",
+    "average",
+    "averaged",
+    "halves",
+    "points",
+    "ends",
+    "ends.rules",
+    "ends.then",
+    "product",
 ];
 
 const SCHEME_KEYS: [&str; 12] =
@@ -63,6 +78,10 @@ const BOUNDARY_KEYS: [&str; 10] =
 const ON_TRIANGLES: &str = "triangles";
 const ON_QUADS: &str = "quads";
 const MESHES: [&str; 3] = ["triangles", "quads", "polygons"];
+/// What stands under `mesh` in a file of a scheme for curves.
+const CURVE: &str = "curve";
+/// What stands under `mesh` in a file of a tensor product.
+const GRID: &str = "grid";
 
 type Item<'a, 'i> = (&'a str, Range<usize>, &'a Spanned<DeValue<'i>>);
 
@@ -132,11 +151,13 @@ struct Reader<'t> {
     faults: Vec<Fault>,
     /// Names under [let] and [parameters] whose own formulas are at fault: not unknown where they are used.
     broken: BTreeSet<String>,
+    /// Counts and indices that names under [let] may use.
+    counts: &'static [&'static str],
 }
 
 impl<'t> Reader<'t> {
     fn new(text: &'t str) -> Self {
-        Reader { text, faults: Vec::new(), broken: BTreeSet::new() }
+        Reader { text, faults: Vec::new(), broken: BTreeSet::new(), counts: &["n", "k", "j"] }
     }
 
     fn into_faults(mut self, origin: &str) -> Faults {

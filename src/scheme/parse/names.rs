@@ -110,7 +110,7 @@ impl Reader<'_> {
                 self.faults.push(Fault::at(parameter.span.clone(), message, "defined twice"));
             }
         }
-        let mut known: BTreeSet<&str> = BTreeSet::from(["n", "k", "j"]);
+        let mut known: BTreeSet<&str> = self.counts.iter().copied().collect();
         known.extend(lets.iter().map(|l| l.name.as_str()));
         known.extend(parameters.iter().map(|p| p.name.as_str()));
         for placed in lets.iter().flat_map(|l| l.value.values()) {
