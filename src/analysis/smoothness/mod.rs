@@ -11,7 +11,7 @@ mod stable;
 mod symbol;
 mod transition;
 
-pub use polytope::Polytope;
+pub use polytope::{Combination, Polytope};
 pub use symbol::{Symbol, reproduction_degree, shift};
 
 use crate::scheme::curve::Mask;

@@ -16,6 +16,9 @@ const CROSS: f64 = 1.0 / 64.0;
 /// Bounds the relative error of one operation in floating point, twice over.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
+/// Digit, vertex, and the weights of vertices that its image is made of.
+pub type Combination = (usize, usize, Vec<(usize, f64)>);
+
 /// A symmetric polytope with all T_e v_j in `bound` times itself.
 #[derive(Clone, Debug)]
 pub struct Polytope {
@@ -26,7 +29,7 @@ pub struct Polytope {
     /// The joint spectral radius is at most this.
     pub bound: f64,
     /// (e, j, weights): T_e v_j = sum alpha_l v_l + r with sum |alpha_l| + |r|_1/cross <= bound.
-    pub combinations: Vec<(usize, usize, Vec<(usize, f64)>)>,
+    pub combinations: Vec<Combination>,
 }
 
 /// The polytope of the eigenvectors `start` at the bound q (1 + slack); `None` where it doesn't close.

@@ -1,3 +1,5 @@
+//! Are the exponents those that are published, and do witnesses hold in exact arithmetic?
+
 use super::*;
 
 fn rational(over: i64, value: i64) -> RBig {
@@ -118,8 +120,8 @@ fn accepts(matrices: &[Exact], polytope: &Polytope) -> bool {
                 return false;
             };
             let mut total = weights.iter().fold(RBig::ZERO, |sum, (_, alpha)| sum + abs(exact(*alpha)));
-            for i in 0..n {
-                let image = (0..n).fold(RBig::ZERO, |s, k| s + &matrices[e][i][k] * exact(polytope.vertices[j][k]));
+            for (i, row) in matrices[e].iter().enumerate() {
+                let image = (0..n).fold(RBig::ZERO, |s, k| s + &row[k] * exact(polytope.vertices[j][k]));
                 let rest =
                     weights.iter().fold(image, |s, (l, alpha)| s - exact(*alpha) * exact(polytope.vertices[*l][i]));
                 total += abs(rest) / &cross;
