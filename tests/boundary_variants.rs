@@ -494,7 +494,7 @@ fn rules_of_two_rings_beside_other_special_vertices() {
     assert!(row.len() > start.mesh.valence(vertex(beside)));
     let open = level(&shapes::disc(5, true));
     let Err(NotRefinable::At(place, obstacle)) = refiner.step(&open, Route::Fast) else { panic!("refined") };
-    assert_eq!((place, obstacle), (vec![0], Obstacle::Boundary("vertex")));
+    assert_eq!((place, *obstacle), (vec![0], Obstacle::Boundary("vertex")));
 }
 
 /// What the papers say of the rules is compared with the analysis; a wrong claim is told.

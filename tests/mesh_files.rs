@@ -855,7 +855,7 @@ proptest! {
             let Read { soup: back, notes } = read(format, &bytes).unwrap();
             prop_assert_eq!(bits(&back.positions), bits(&soup.positions));
             prop_assert_eq!(&back.faces, &soup.faces);
-            prop_assert!(notes.is_empty());
+            prop_assert!(notes.iter().all(|note| note.contains("is on no edge")), "{notes:?}");
             if format == Format::Obj {
                 prop_assert_eq!(back, soup.clone());
             }

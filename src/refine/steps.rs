@@ -74,7 +74,7 @@ pub enum NotRefinable {
     /// A point that can't be made.
     Obstacle(Obstacle),
     /// The same because of its surroundings: at a vertex, or at the edge or in the face of these vertices.
-    At(Vec<u32>, Obstacle),
+    At(Vec<u32>, Box<Obstacle>),
 }
 
 impl fmt::Display for NotRefinable {
@@ -122,7 +122,7 @@ fn standing_at(mesh: &HalfEdgeMesh, birth: Birth, obstacle: Obstacle) -> NotRefi
         Birth::Edge(h) => vec![mesh.origin(h), mesh.target(h)],
         Birth::Face(h) => mesh.around_face(h).into_iter().map(|h| mesh.origin(h)).collect(),
     };
-    NotRefinable::At(at, obstacle)
+    NotRefinable::At(at, Box::new(obstacle))
 }
 
 impl From<NotAMesh> for NotRefinable {
