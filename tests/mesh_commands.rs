@@ -161,7 +161,7 @@ fn tags_come_from_files_and_angles_and_go_on() {
     let once = folder.read("once.obj");
     assert!(once.creases.len() == 2 && once.creases.iter().all(|crease| crease.sharpness == 1.5));
     folder.file("wrong.obj", text + "t crease 1/8 2\n");
-    folder.refused("refine catmull-clark wrong.obj -o no.obj", &["a crease is told between vertices 0 and 7"]);
+    folder.refused("refine catmull-clark wrong.obj -o no.obj", &["no edge runs between vertices 0 and 7"]);
     folder.file("long.obj", fs::read_to_string(folder.path("cube.obj")).unwrap() + "t crease 1/2 1000\n");
     folder.refused("limit catmull-clark long.obj -o no.obj", &["of 1000 steps", "for ever (inf)"]);
     folder.refused("refine catmull-clark long.obj -o no.obj --to-limit -l 3", &["of 1000 steps", "for ever (inf)"]);

@@ -305,7 +305,7 @@ pub(crate) fn refused(scheme: &Scheme, wrong: NotRefinable) -> Failure {
             scheme.book.title
         )),
         NotRefinable::Obstacle(obstacle) => explain(scheme, obstacle),
-        NotRefinable::At(_, ref why) if matches!(**why, Obstacle::Boundary(_)) => failure(format!(
+        NotRefinable::At(_, ref obstacle) if matches!(**obstacle, Obstacle::Boundary(_)) => failure(format!(
             "{}: {wrong}\n  help: no rule is told for such a place: a shorter rule is needed, or a mesh without boundary and creases",
             scheme.book.title
         )),

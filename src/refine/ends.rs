@@ -19,6 +19,9 @@ struct End<E> {
     starts: Vec<E>,
 }
 
+/// Whether the origin of a half-edge has a rule for the edge.
+type EndRule<R, M> = fn(&R, &M, <M as Connectivity>::Edge) -> Option<End<<M as Connectivity>::Edge>>;
+
 impl<W: Field> Pass<'_, W> {
     /// The row of the new point on an edge, by the rule from its special ends or by the plain one.
     pub(super) fn row_from_ends<M: Connectivity>(
@@ -33,7 +36,7 @@ impl<W: Field> Pass<'_, W> {
             return self.apply(mesh, plain, 0, &halves);
         }
         let of_crease = [Self::dart_of_crease, Self::irregular_end_of_crease];
-        let ends = |rule: fn(&Self, &M, M::Edge) -> Option<End<M::Edge>>| -> Vec<End<M::Edge>> {
+        let ends = |rule: EndRule<Self, M>| -> Vec<End<M::Edge>> {
             halves.iter().filter_map(|half| rule(self, mesh, *half)).collect()
         };
         let ends = match sharp {

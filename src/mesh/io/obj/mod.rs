@@ -80,8 +80,9 @@ impl Reader {
             return Err(BadFile { more, ..no_vertex(u64::from(vertex) + 1, vertices, 1, place) });
         }
         let mut soup = self.gather.finish()?;
-        self.tags.check(vertices, &soup.faces)?;
+        self.tags.check(vertices)?;
         let mut notes: Vec<String> = self.left_out.notes().chain(self.unknown).collect();
+        notes.extend(self.tags.loose(&soup.faces));
         (soup.creases, soup.corners) = self.tags.finish(&mut notes);
         Ok(Read { soup, notes })
     }

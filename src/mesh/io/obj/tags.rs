@@ -74,9 +74,8 @@ impl Tags {
         Ok(())
     }
 
-    /// Whether all vertices and edges exist.
-    pub(super) fn check(&self, vertices: usize, faces: &Faces) -> Result<(), BadFile> {
-        self.check_vertices(vertices)?;
+    /// The first crease that is on no edge, with its line: reading goes on, but no mesh will be made of it.
+    pub(super) fn loose(&self, faces: &Faces) -> Option<String> {
         let ordered = |a: u32, b: u32| (a.min(b), a.max(b));
         let mut loose: HashMap<(u32, u32), usize> = HashMap::new();
         for (Crease { ends: [a, b], .. }, line) in &self.creases {
@@ -87,13 +86,12 @@ impl Tags {
                 loose.remove(&ordered(*a, *b));
             }
         }
-        let Some(((a, b), line)) = loose.iter().min_by_key(|(_, line)| **line) else { return Ok(()) };
-        let message =
-            format!("a crease is told between vertices {a} and {b}, counted from 0, but no face has that edge");
-        Err(BadFile { more: loose.len() - 1, ..bad(*line, message) })
+        let ((a, b), line) = loose.iter().min_by_key(|(ends, line)| (**line, **ends))?;
+        Some(format!("line {line}: a crease between vertices {a} and {b}, counted from 0, is on no edge of a face"))
     }
 
-    fn check_vertices(&self, vertices: usize) -> Result<(), BadFile> {
+    /// Whether all vertices exist.
+    pub(super) fn check(&self, vertices: usize) -> Result<(), BadFile> {
         let ends = self.creases.iter().flat_map(|(crease, line)| crease.ends.map(|end| (end, *line)));
         let all = ends.chain(self.corners.iter().map(|(vertex, _, line)| (*vertex, *line)));
         let beyond = || all.clone().filter(|(vertex, _)| *vertex as usize >= vertices);
