@@ -1,14 +1,13 @@
 //! Which data has the report of a scheme for curves?
 
 use super::NoCurveReport;
-use super::smoothness::{SmoothnessReport, facts};
+use super::smoothness::{SmoothnessReport, facts, of_mask};
 use crate::analysis::curve::convergence::convergence;
 use crate::analysis::curve::difference::sum_rules;
 use crate::analysis::curve::local::LocalMatrix;
 use crate::analysis::curve::matrix_form::{matrix_form, spline_degree};
 use crate::analysis::curve::point::{CurvePoint, IndexedWeight, MaskOf};
 use crate::analysis::curve::spectrum::{CurveEigenvalue, is_diagonalizable};
-use crate::analysis::smoothness::smoothness;
 use crate::numbers::enclosure::rational_decimal;
 use crate::report::model::{FORMAT, Reference, reference};
 use crate::scheme::curve::{CurveScheme, Mask, Rules};
@@ -205,7 +204,7 @@ impl CurveReport {
             }
         }
         let parameters = scheme.book.parameters.iter();
-        let found = mask.map(smoothness);
+        let found = mask.map(of_mask);
         let facts = found.as_ref().map(facts).unwrap_or_default();
         let claims = check_curve_claims(scheme, &facts);
         let claims = claims.map_err(|fault| NoCurveReport::Faults(scheme.book.faults(vec![fault])))?;
@@ -224,7 +223,7 @@ impl CurveReport {
             halves,
             matrix_form: mask.and_then(matrices),
             smoothness: found.as_ref().and_then(|found| found.as_ref().ok()).map(SmoothnessReport::of),
-            why_no_smoothness: found.and_then(Result::err).map(|why| why.to_string()),
+            why_no_smoothness: found.and_then(Result::err).map(|none| none.why),
             generation_degree: facts.generation,
             reproduction_degree: facts.reproduction,
             claims,

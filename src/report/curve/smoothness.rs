@@ -1,9 +1,12 @@
 //! What does the report say of the smoothness of a curve?
 
 use super::model::CurveReport;
-use crate::analysis::smoothness::{NoLimit, Smoothness};
+use crate::analysis::smoothness::stability::Stability;
+use crate::analysis::smoothness::{Smoothness, smoothness};
 use crate::report::{Cell, Table};
+use crate::scheme::curve::Mask;
 use crate::verdicts::CurveFacts;
+use dashu_ratio::RBig;
 use serde::Serialize;
 
 /// What is known of the smoothness of limit curves, certified.
@@ -47,20 +50,43 @@ fn up(value: f64) -> f64 {
     (value * 1e12).ceil() / 1e12
 }
 
+/// Why nothing is said of limit curves.
+pub(super) struct NoLimit {
+    /// In words.
+    pub(super) why: String,
+    /// Whether it is certain that there are none that are continuous.
+    pub(super) certain: bool,
+}
+
+/// The smoothness of a mask whose scheme is shown to converge.
+pub(super) fn of_mask(mask: &Mask) -> Result<Smoothness, NoLimit> {
+    let sums = mask.coset_sums().iter().any(|sum| *sum != RBig::ONE);
+    let found = smoothness(mask).map_err(|why| NoLimit { why, certain: sums })?;
+    match found.continuity {
+        Some(_) => Ok(found),
+        None => Err(NoLimit { why: found.why.join("; "), certain: found.radius.lower >= RBig::ONE }),
+    }
+}
+
 impl SmoothnessReport {
     pub(super) fn of(found: &Smoothness) -> SmoothnessReport {
+        let continuity = found.continuity.unwrap_or(0);
         SmoothnessReport {
-            continuity: found.continuity,
-            no_more: found.no_more,
+            continuity: u32::try_from(continuity).unwrap_or(u32::MAX),
+            no_more: found.refuted == Some(continuity + 1),
             hoelder: HoelderReport {
-                lower: down(found.hoelder.lower),
-                upper: found.hoelder.upper.map(up),
-                attained: found.hoelder.attained,
-                exact: found.hoelder.exact.clone(),
+                lower: down(found.lower.unwrap_or(0.0)),
+                upper: found.upper.map(up),
+                attained: found.attained,
+                exact: found.exact.clone(),
             },
-            stable: found.stable,
+            stable: match found.stability {
+                Stability::Stable => Some(true),
+                Stability::Unstable(_) => Some(false),
+                Stability::Undecided(_) => None,
+            },
             shift: found.shift.to_string(),
-            product: found.product.clone(),
+            product: found.radius.product.clone(),
             why: found.why.clone(),
         }
     }
@@ -97,15 +123,16 @@ fn floor9(value: f64) -> f64 {
 
 /// What claims are compared with.
 pub(super) fn facts(found: &Result<Smoothness, NoLimit>) -> CurveFacts {
+    let order = |m: usize| i64::try_from(m).ok();
     match found {
         Ok(own) => CurveFacts {
-            generation: Some(own.generation_degree),
+            generation: own.order.checked_sub(1),
             reproduction: Some(own.reproduction_degree),
-            proved: Some(i64::from(own.continuity)),
-            refuted: own.no_more.then(|| i64::from(own.continuity) + 1),
-            hoelder: Some([own.hoelder.lower, own.hoelder.upper.unwrap_or(f64::INFINITY)]),
+            proved: own.continuity.and_then(order),
+            refuted: own.refuted.and_then(order),
+            hoelder: own.lower.map(|lower| [lower, own.upper.unwrap_or(f64::INFINITY)]),
         },
-        Err(NoLimit::SumRule(_) | NoLimit::Diverges(..)) => CurveFacts { refuted: Some(0), ..CurveFacts::default() },
+        Err(NoLimit { certain: true, .. }) => CurveFacts { refuted: Some(0), ..CurveFacts::default() },
         Err(_) => CurveFacts::default(),
     }
 }
