@@ -259,3 +259,33 @@ fn masks_of_many_points_get_a_narrow_interval() {
     assert_eq!((found.order, found.continuity, found.refuted), (12, Some(4), Some(5)));
     assert!(found.radius.witness.shows(&found.kernel, &found.radius.upper));
 }
+
+/// The four-point scheme is C1 exactly on (0, w*), 32 w*^3 + 4 w* = 1 (Hechler, Moessner and Reif 2009): proved inside, refuted outside, and
+/// what is left open is narrow. What is no polynomial of degree 1 in its parameter is refused.
+#[test]
+fn ranges_of_the_four_point_scheme_close_in_on_its_ends() {
+    use eigenring::report::curve::range::range;
+    use eigenring::scheme::{Interval, catalogue};
+    let scheme = catalogue::curve("four-point").unwrap().unwrap();
+    let found = range(&scheme, &Interval::parse("w=-1/8..1/4").unwrap(), 1).unwrap();
+    let critical = 0.192_729_25;
+    let value = |text: &str| text.parse::<RBig>().unwrap().to_f64().value();
+    let (mut proved, mut refuted) = (0.0, 0.0);
+    for piece in &found.pieces {
+        let (from, to) = (value(&piece.from), value(&piece.to));
+        match piece.verdict {
+            "proved" => {
+                assert!(from > 0.0 && to < critical, "{piece:?}");
+                proved += to - from;
+            }
+            "refuted" => {
+                assert!(to <= 0.0 || from >= critical, "{piece:?}");
+                refuted += to - from;
+            }
+            _ => assert!(to - from < 0.003, "{piece:?}"),
+        }
+    }
+    assert!(proved > 0.185 && refuted > 0.18, "{found:?}");
+    let splines = catalogue::curve("bezier").unwrap().unwrap();
+    assert!(range(&splines, &Interval::parse("t=1/4..1/2").unwrap(), 1).is_err());
+}

@@ -45,6 +45,9 @@ pub(crate) struct Analyze {
     /// Find the values of a parameter for which spectral conditions hold, exactly: w=0..1/4
     #[arg(long, value_name = "NAME=LOW..HIGH", value_parser = Interval::parse)]
     range: Option<Interval>,
+    /// For curves, the claim that --range looks at: C0, C1, C2, ...
+    #[arg(long, value_name = "CLAIM", default_value = "C1", value_parser = continuity)]
+    claim: usize,
     /// Add what the scheme does at boundaries, creases, corners and darts, for these numbers of faces: 1..8, or a list
     #[arg(long, value_name = "LIST")]
     boundary: Option<Faces>,
@@ -80,6 +83,14 @@ impl Analyze {
             AnyScheme::Surface(scheme) => self.surface(*scheme, variants),
             AnyScheme::Curve(scheme) => {
                 self.only_for_surfaces("curves")?;
+                if let Some(interval) = &self.range {
+                    let found = curve::range::range(&scheme, interval, self.claim);
+                    let found = found.map_err(|why| failure(format!("{}: {why}", scheme.book.title)))?;
+                    return match self.format {
+                        Some(Format::Json) => print(&(serde_json::to_string_pretty(&found).unwrap_or_default() + "\n")),
+                        _ => print(&curve::range::terminal(&scheme.book.title, &found)),
+                    };
+                }
                 let draw = !self.no_pictures && self.format.is_none();
                 self.document(&curve::curve(&scheme, self.digits.into(), draw)?)
             }
@@ -95,7 +106,7 @@ impl Analyze {
         let asked = [
             ("--symbolic", !self.symbolic.is_empty()),
             ("--sweep", self.sweep.is_some()),
-            ("--range", self.range.is_some()),
+            ("--range", self.range.is_some() && kind == "grids"),
             ("--boundary", self.boundary.is_some()),
         ];
         match asked.iter().find(|(_, asked)| *asked) {
@@ -266,4 +277,10 @@ fn files_line(folder: &Path, names: &[String]) -> String {
         length += name.len() + 1;
     }
     text + "\n"
+}
+
+/// The m of `Cm`.
+fn continuity(text: &str) -> Result<usize, String> {
+    let m = text.strip_prefix('C').and_then(|m| m.parse().ok()).filter(|m| *m <= 16);
+    m.ok_or_else(|| format!("`{text}` is not a claim of continuity from C0 to C16"))
 }

@@ -5,6 +5,7 @@
 mod document;
 mod grid;
 mod model;
+pub mod range;
 mod smoothness;
 mod tables;
 mod terminal;

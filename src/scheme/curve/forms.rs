@@ -148,7 +148,7 @@ pub(super) fn nowhere() -> Place<Laurent> {
 }
 
 /// Formulas in i and j.
-fn indexed(i: i64, j: i64) -> Place<Laurent> {
+pub(super) fn indexed(i: i64, j: i64) -> Place<Laurent> {
     Place { variable: Some("i"), count: i, value: Laurent::whole(i), index: Laurent::whole(j) }
 }
 

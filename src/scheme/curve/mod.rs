@@ -4,6 +4,7 @@
 //! an average, or as the two halves of a polygon (de Casteljau). Whatever the form, [`CurveScheme::rules`] gives exact weights.
 //! The forms are those of Dyn and Levin ("Subdivision schemes in geometric modelling", 2002) and Lane and Riesenfeld (1980).
 
+mod affine;
 mod claim;
 mod ends;
 mod forms;
