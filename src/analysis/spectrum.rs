@@ -248,7 +248,7 @@ fn error_estimates(form: &DMatrix<f64>, values: &[Complex64]) -> Result<Vec<f64>
     });
     let moved = eigenvalues_of(&changed)?;
     let movement = |value: &Complex64| moved.iter().map(|other| modulus(other - value)).fold(f64::INFINITY, f64::min);
-    Ok(values.iter().map(|value| (16.0 * movement(value)).clamp(NEAR, loose.max(NEAR))).collect())
+    Ok(values.iter().map(|value| (64.0 * movement(value)).clamp(NEAR, loose.max(NEAR))).collect())
 }
 
 /// Joins, among the eigenvalues of one frequency, those that are approximately equal: of one core where their errors may make up for

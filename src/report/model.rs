@@ -435,12 +435,13 @@ fn valence_report(analysis: &Analysis, verdicts: &[Verdict], names: &OrbitNames,
         steps: analysis.regular.steps as u32,
         dilation: analysis.regular.dilation.unsigned_abs(),
         eigenvalues: eigenvalues(analysis, digits),
-        arithmetic: match analysis.exact.as_ref().map(|exact| exact.arithmetic) {
-            Ok(Arithmetic::Exact) => "exact",
-            Ok(Arithmetic::Enclosed) => "enclosed",
-            Err(_) => "approximate",
+        arithmetic: match told_apart(analysis).map(|exact| exact.arithmetic) {
+            Some(Arithmetic::Exact) => "exact",
+            Some(Arithmetic::Enclosed) => "enclosed",
+            None => "approximate",
         },
         why_not_exact: match &analysis.exact {
+            Ok(_) if told_apart(analysis).is_none() => Some("enclosures do not tell all eigenvalues apart".to_string()),
             Ok(exact) => exact.why_enclosed.clone(),
             Err(why) => Some(why.clone()),
         },

@@ -1318,7 +1318,7 @@ PLANTED = [
     (Butterfly(), 'opposite = "2*w"', 'opposite = "2*w + 1/1000000"', 'ends     = "1/2"', 'ends     = "1/2 - 1/1000000"'),
     (Butterfly(), 'opposite = "2*w"', 'opposite = "2*w + 2/1000000"', 'wings    = "-w"', 'wings    = "-w - 1/1000000"'),
     (Kobbelt(), 't = "w/(8 + w)"', 't = "w/(8 + w) + 1/1000000"'),
-    (Kobbelt(), '"diagonals[-2,-1,0,1]" = "-w/16 * t"', '"diagonals[-1,0]" = "-w/16 * 2*t"'),
+    (Kobbelt(), '"diagonals[-2,-1,0,1]" = "-t*w/16"', '"diagonals[-1,0]" = "-t*w/8"'),
     (Kobbelt(), 'tips = "-w/16"', 'tips = "-w/16 + 1/1000000"', 'ends = "1/2 + w/16"', 'ends = "1/2 + w/16 - 1/1000000"'),
     (Kobbelt(), '"(1/2 + w/16)/2"', '"(1/2 + w/16)/2 + 1/1000000"', '"-w/32"', '"-w/32 - 1/1000000"'),
     (Sqrt3(), '"(4 - 2*cos(2*pi/n))/9"', '"(4 - 2*cos(2*pi/n))/9 + 1/1000000"'),
