@@ -22,6 +22,7 @@ pub mod linear;
 pub mod notation;
 pub mod polynomial;
 mod quotient;
+mod rational;
 pub mod real_root;
 mod ring;
 pub mod roots;
