@@ -37,9 +37,22 @@ fn maps_of_polynomial_schemes_are_proved() {
 
 #[test]
 fn schemes_of_other_kinds_are_undecided() {
-    for id in ["butterfly", "modified-butterfly"] {
+    for id in ["butterfly", "modified-butterfly", "sqrt3", "kobbelt"] {
         let scheme = open(id);
         assert!(matches!(prove(&Analyzer::new(&scheme).unwrap()), Outcome::Undecided { .. }), "{id}");
+    }
+}
+
+/// At (1, 0) the modified butterfly has a rule of its own; Catmull and Clark's scheme has none but at the centre.
+#[test]
+fn rules_that_reach_into_the_ring_are_seen() {
+    for (id, regular) in [("modified-butterfly", false), ("catmull-clark", true)] {
+        let scheme = open(id);
+        let analyzer = Analyzer::new(&scheme).unwrap();
+        let (lattice, forms) = (analyzer.lattice(), analyzer.forms().unwrap());
+        let net = Net::of(&scheme, lattice, forms, range(forms).unwrap().unwrap().course).unwrap();
+        assert_eq!(net.is_regular_row(1, 0).unwrap(), regular, "{id}");
+        assert!(net.is_regular_row(20, 20).unwrap(), "{id}");
     }
 }
 

@@ -49,6 +49,14 @@ impl Pieces {
         [((1, 0), 1), ((1, 1), last)]
     }
 
+    /// The controls of patches i..k along a direction are those from i + the first number to before k + the second.
+    pub fn controls(self) -> (i32, i32) {
+        match self {
+            Pieces::Tensor(degree) => (-1, degree as i32 - 1),
+            Pieces::Quartic => (-1, 2),
+        }
+    }
+
     /// The Bezier points of a patch, up to a common positive factor.
     ///
     /// # Errors

@@ -72,12 +72,49 @@ fn attempt(analyzer: &Analyzer) -> Result<Outcome, Obstacle> {
     if !is_positive_quotient(&range.course.lambda, &range.interval)? {
         return Ok(stuck("the subdominant eigenvalue is not seen to be positive"));
     }
+    if analyzer.clear_of_centre() > 1 << LEVELS || !is_regular(&net, pieces)? {
+        return Ok(stuck("rules at the extraordinary point reach into the ring"));
+    }
     let functions = match verify(&mut net, pieces, lattice, &range)? {
         Ok(functions) => functions,
         Err(at) => return Ok(stuck(at)),
     };
     let degree = functions.iter().filter_map(|own| own.numerator().degree().max(own.denominator().degree())).max();
     Ok(Outcome::Proved { from: forms.from, range, functions: functions.len(), degree: degree.unwrap_or(0) })
+}
+
+/// So many levels on, rows on the ring keep clear of the centre.
+const LEVELS: u32 = 4;
+
+/// Whether the patches of the ring are refined as on a regular mesh, at every level: what Bezier points of the net presuppose. Those further out than
+/// [`LEVELS`] levels lead are.
+fn is_regular(net: &Net, pieces: Pieces) -> Result<bool, Obstacle> {
+    for (level, ((x, y), sign)) in (1..=LEVELS).flat_map(|level| pieces.ring().map(|patch| (level, patch))) {
+        // the controls of all patches that this one is made of
+        let scale = 1 << level;
+        let (low, high) = pieces.controls();
+        let along = if sign > 0 {
+            scale * x + low..scale * (x + 1) + high
+        } else {
+            scale * (x - 1) - high + 1..scale * x - low + 1
+        };
+        let over = if sign > 0 {
+            scale * y + low..scale * (y + 1) + high
+        } else {
+            scale * (y - 1) - high + 1..scale * y - low + 1
+        };
+        let needed = |i: i32, j: i32| match (pieces, sign) {
+            (Pieces::Quartic, 1) => i + j < scale * (x + y + 1) + 2 && i + j >= scale * (x + y) - 1,
+            (Pieces::Quartic, _) => i + j >= scale * (x + y - 1) - 1 && i + j < scale * (x + y) + 2,
+            _ => true,
+        };
+        for (i, j) in along.flat_map(|i| over.clone().map(move |j| (i, j))).filter(|(i, j)| needed(*i, *j)) {
+            if !net.is_regular_row(i, j)? {
+                return Ok(false);
+            }
+        }
+    }
+    Ok(true)
 }
 
 /// The functions that were shown to be positive, if S f = lambda f and all of them are; else where not.

@@ -45,6 +45,9 @@ pub struct Net<'a> {
 /// The world of n and c; parameters have their values.
 static WORLD: FreeWorld = FreeWorld { parameters: Vec::new() };
 
+/// So far from the centre that rows are regular.
+const FAR: i32 = 64;
+
 /// A chain of old points longer than this means that a value depends on itself outside the neighbourhood.
 const LONGEST_CHAIN: usize = 64;
 
@@ -122,6 +125,24 @@ impl<'a> Net<'a> {
             }
         }
         Ok(true)
+    }
+
+    /// Whether the row of the new point at (i, j) in the coordinates of sector 0 is that of a regular mesh.
+    ///
+    /// # Errors
+    /// As [`Net::at`].
+    pub fn is_regular_row(&self, i: i32, j: i32) -> Result<bool, Obstacle> {
+        let own = self.refinement.row(&self.patch, self.patch.point(0, i, j))?;
+        let far = self.refinement.row(&self.patch, Label { sector: 0, i: i + 2 * FAR, j: j + 2 * FAR })?;
+        let here = |label: Label| self.patch.point(0, label.i - FAR, label.j - FAR);
+        let mut regular: Vec<_> = far.into_iter().map(|(label, weight)| (here(label), weight)).collect();
+        let mut own: Vec<_> = own.into_iter().collect();
+        regular.sort_by_key(|(label, _)| *label);
+        own.sort_by_key(|(label, _)| *label);
+        let alike = |((p, v), (q, w)): (&(Label, PerFrequency<Free>), &(Label, PerFrequency<Free>))| {
+            p == q && v.value(Some(1)) == w.value(Some(1))
+        };
+        Ok(own.len() == regular.len() && own.iter().zip(&regular).all(alike))
     }
 
     /// Whether the values, c and lambda have no pole in an interval.
