@@ -79,6 +79,7 @@ pub mod analysis;
 pub mod fault;
 pub mod mesh;
 pub mod numbers;
+pub mod proof;
 pub mod refine;
 pub mod report;
 pub mod scheme;

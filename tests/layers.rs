@@ -5,15 +5,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each layer with the layers that it may use.
-const MAY_USE: [(&str, &[&str]); 8] = [
+const MAY_USE: [(&str, &[&str]); 9] = [
     ("fault", &[]),
     ("numbers", &[]),
     ("mesh", &["numbers", "fault"]),
     ("scheme", &["numbers", "fault"]),
     ("refine", &["scheme", "mesh", "numbers", "fault"]),
     ("analysis", &["refine", "scheme", "mesh", "numbers", "fault"]),
-    ("verdicts", &["analysis", "refine", "scheme", "mesh", "numbers", "fault"]),
-    ("report", &["verdicts", "analysis", "refine", "scheme", "mesh", "numbers", "fault"]),
+    ("proof", &["analysis", "refine", "scheme", "mesh", "numbers", "fault"]),
+    ("verdicts", &["proof", "analysis", "refine", "scheme", "mesh", "numbers", "fault"]),
+    ("report", &["verdicts", "proof", "analysis", "refine", "scheme", "mesh", "numbers", "fault"]),
 ];
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {

@@ -200,6 +200,11 @@ impl<'a> Analyzer<'a> {
         self.stencils.dilation()
     }
 
+    /// The distance i + j from which on a new point's row is that of a regular mesh.
+    pub fn clear_of_centre(&self) -> i32 {
+        self.stencils.clear_of_centre()
+    }
+
     /// What the scheme does on regular meshes, at the values of its parameters, or why that isn't told.
     pub fn regular(&self) -> Result<&Regular, &str> {
         self.regular_meshes.as_ref().map_err(String::as_str)

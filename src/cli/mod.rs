@@ -5,6 +5,7 @@
 
 mod analyze;
 mod catalogue;
+mod certify;
 mod claims;
 mod curve;
 mod grid;
@@ -28,6 +29,7 @@ const EXAMPLES: &str = "Examples:
   eigenring schemes                                the schemes that come with the program
   eigenring schemes loop                           one of their files, ready to copy and edit
   eigenring claims                                 every claim of the literature: holds, fails, undecided
+  eigenring certify loop                           what is proved for every valence at once
   eigenring new my-scheme --like loop              start a scheme file
   eigenring matrix loop --valence 5 --block 1      a block of the local subdivision matrix
   eigenring refine loop in.obj -o out.ply -l 3     a mesh, refined three times
@@ -54,6 +56,8 @@ enum Command {
     Schemes(catalogue::Schemes),
     /// Hold every claim of the literature against the analysis
     Claims(claims::Claims),
+    /// Prove what can be proved for every valence at once
+    Certify(certify::Certify),
     /// Start a scheme file of your own
     New(catalogue::New),
     /// Print the local subdivision matrix of a scheme, or a block of it
@@ -107,6 +111,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Analyze(command) => command.run(),
         Command::Schemes(command) => command.run(),
         Command::Claims(command) => command.run(),
+        Command::Certify(command) => command.run(),
         Command::New(command) => command.run(),
         Command::Matrix(command) => command.run(),
         Command::Refine(command) => command.run(),

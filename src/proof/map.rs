@@ -1,0 +1,155 @@
+//! Is the characteristic map regular and injective, for every valence?
+//!
+//! Regular: the Jacobian is positive on the closed ring (Reif 1995); by the reflection half a sector is enough. Injective: if moreover the ring of a sector
+//! is mapped into the open half plane around the sector's axis, then the map of the punctured plane is a covering whose winding number is 1. This is
+//! proved in docs/theory.md; it asks for n >= 3, lambda > 0 and frequency 1. The half plane is a + b > 0 for a value a + b w where a sector begins on
+//! a spoke, and a + b c > 0 on the dual lattice, where its axis is the middle of sector 0.
+
+use super::course::{Range, range};
+use super::jacobian::Pieces;
+use super::net::{Function, Net, Pair};
+use super::positive::is_positive_quotient;
+use crate::analysis::Analyzer;
+use crate::mesh::Lattice;
+use crate::numbers::{Field, Trouble};
+use crate::refine::Obstacle;
+
+/// What a proof attempt came to; that a proof is not found refutes nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// It holds, for every n from `from` on.
+    Proved {
+        /// The first n that the scheme's rules are the same from.
+        from: usize,
+        /// The parametrisation and its range.
+        range: Range,
+        /// How many functions were shown to be positive.
+        functions: usize,
+        /// Their largest degree.
+        degree: usize,
+    },
+    /// It is not decided.
+    Undecided {
+        /// Where it got stuck.
+        at: String,
+    },
+}
+
+/// Whether the characteristic maps of all n are regular and injective. Nothing is said of the spectrum: whether lambda is subdominant at every n is a
+/// condition of its own.
+pub fn prove(analyzer: &Analyzer) -> Outcome {
+    attempt(analyzer).unwrap_or_else(|obstacle| stuck(obstacle.to_string()))
+}
+
+fn stuck(at: impl Into<String>) -> Outcome {
+    Outcome::Undecided { at: at.into() }
+}
+
+fn attempt(analyzer: &Analyzer) -> Result<Outcome, Obstacle> {
+    let lattice = analyzer.lattice();
+    let forms = match analyzer.forms() {
+        Ok(forms) => forms,
+        Err(why) => return Ok(stuck(why)),
+    };
+    if !forms.parameters.is_empty() {
+        return Ok(stuck("a parameter is left free"));
+    }
+    if forms.except.is_some() {
+        return Ok(stuck("the regular valence has rules of its own"));
+    }
+    if analyzer.steps() != 1 || analyzer.dilation() != 2 {
+        return Ok(stuck("the lattice is not halved by each step"));
+    }
+    let spline = analyzer.regular().ok().and_then(|regular| regular.spline.as_ref());
+    let Some(pieces) = spline.and_then(|spline| Pieces::of(spline, lattice)) else {
+        return Ok(stuck("limit functions on regular meshes are not of a kind whose Bezier points are known here"));
+    };
+    let Some(range) = range(forms)? else {
+        return Ok(stuck("c and the subdominant eigenvalue are not rational functions of one parameter"));
+    };
+    let scheme = analyzer.scheme().with_values();
+    let mut net = Net::of(&scheme, lattice, forms, range.course.clone())?;
+    if !is_positive_quotient(&range.course.lambda, &range.interval)? {
+        return Ok(stuck("the subdominant eigenvalue is not seen to be positive"));
+    }
+    if analyzer.clear_of_centre() > 1 << LEVELS || !is_regular(&net, pieces)? {
+        return Ok(stuck("rules at the extraordinary point reach into the ring"));
+    }
+    let functions = match verify(&mut net, pieces, lattice, &range)? {
+        Ok(functions) => functions,
+        Err(at) => return Ok(stuck(at)),
+    };
+    let degree = functions.iter().filter_map(|own| own.numerator().degree().max(own.denominator().degree())).max();
+    Ok(Outcome::Proved { from: forms.from, range, functions: functions.len(), degree: degree.unwrap_or(0) })
+}
+
+/// So many levels on, rows on the ring keep clear of the centre.
+const LEVELS: u32 = 4;
+
+/// Whether the patches of the ring are refined as on a regular mesh, at every level: what Bezier points of the net presuppose. Those further out than
+/// [`LEVELS`] levels lead are.
+fn is_regular(net: &Net, pieces: Pieces) -> Result<bool, Obstacle> {
+    for (level, ((x, y), sign)) in (1..=LEVELS).flat_map(|level| pieces.ring().map(|patch| (level, patch))) {
+        // the controls of all patches that this one is made of
+        let scale = 1 << level;
+        let (low, high) = pieces.controls();
+        let along = if sign > 0 {
+            scale * x + low..scale * (x + 1) + high
+        } else {
+            scale * (x - 1) - high + 1..scale * x - low + 1
+        };
+        let over = if sign > 0 {
+            scale * y + low..scale * (y + 1) + high
+        } else {
+            scale * (y - 1) - high + 1..scale * y - low + 1
+        };
+        let needed = |i: i32, j: i32| match (pieces, sign) {
+            (Pieces::Quartic, 1) => i + j < scale * (x + y + 1) + 2 && i + j >= scale * (x + y) - 1,
+            (Pieces::Quartic, _) => i + j >= scale * (x + y - 1) - 1 && i + j < scale * (x + y) + 2,
+            _ => true,
+        };
+        for (i, j) in along.flat_map(|i| over.clone().map(move |j| (i, j))).filter(|(i, j)| needed(*i, *j)) {
+            if !net.is_regular_row(i, j)? {
+                return Ok(false);
+            }
+        }
+    }
+    Ok(true)
+}
+
+/// The functions that were shown to be positive, if S f = lambda f and all of them are; else where not.
+///
+/// # Errors
+/// When a limit of size is passed.
+pub fn verify(
+    net: &mut Net,
+    pieces: Pieces,
+    lattice: Lattice,
+    range: &Range,
+) -> Result<Result<Vec<Function>, String>, Obstacle> {
+    let mut functions = Vec::new();
+    for patch in pieces.ring() {
+        let points = pieces.bezier(net, patch)?;
+        for (index, value) in pieces.jacobian(&points)? {
+            if !is_positive_quotient(&value, &range.interval)? {
+                return Ok(Err(format!("coefficient {index:?} of the Jacobian on the patch at {:?}", patch.0)));
+            }
+            functions.push(value);
+        }
+        for (index, point) in &points {
+            let value = along_axis(point, lattice, &range.course.c)?;
+            if !is_positive_quotient(&value, &range.interval)? {
+                return Ok(Err(format!("Bezier point {index:?} of the patch at {:?}: not in the half plane", patch.0)));
+            }
+            functions.push(value);
+        }
+    }
+    if !net.satisfies_its_equation()? || !net.has_no_pole(&range.interval)? {
+        return Ok(Err("the net doesn't satisfy S f = lambda f".to_string()));
+    }
+    Ok(Ok(functions))
+}
+
+fn along_axis((a, b): &Pair, lattice: Lattice, c: &Function) -> Result<Function, Trouble> {
+    if lattice.has_centre() { a.plus(b) } else { a.plus(&b.times(c)?) }
+}

@@ -1,0 +1,235 @@
+//! What is the net of the characteristic map, for every valence at once?
+//!
+//! A value of frequency 1 is a + b w with w = exp(2 pi i/n), kept as (a, b); with w^2 = 2 c w - 1 a turn by a sector is
+//! (a, b) -> (-b, a + 2 c b). No sine stands in it, so that n enters through c = cos(2 pi/n) alone, and c = 1, the limit of large n, is no
+//! special value. Since a + b w has the real coordinates a + b c and b sin(2 pi/n), the determinant of two pairs has the sign of that of the points.
+
+use super::positive::{Interval, is_positive};
+use crate::analysis::exact::block::{Block, Unknown, Wave};
+use crate::analysis::exact::formulas::{AllValences, GENERIC};
+use crate::analysis::neighbourhood::Orbit;
+use crate::mesh::{Label, Lattice, Patch};
+use crate::numbers::linear::{null_space, part, shifted};
+use crate::numbers::{C, Field, Free, FreeWorld, N, PerFrequency, Quotient, Trouble};
+use crate::refine::{Count, ExactWeights, Obstacle, Refinement};
+use crate::scheme::Scheme;
+use dashu_ratio::RBig;
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// A rational function of the parameter p.
+pub type Function = Quotient<RBig>;
+
+/// A value a + b w.
+pub type Pair = (Function, Function);
+
+/// How c and lambda depend on the parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Course {
+    /// c = cos(2 pi/n).
+    pub c: Function,
+    /// The subdominant eigenvalue.
+    pub lambda: Function,
+}
+
+/// The net, as far as it has been asked for.
+pub struct Net<'a> {
+    /// The parametrisation that it is made for.
+    pub course: Course,
+    patch: Patch,
+    refinement: Refinement<'a, PerFrequency<Free>>,
+    values: BTreeMap<Orbit, Pair>,
+}
+
+/// The world of n and c; parameters have their values.
+static WORLD: FreeWorld = FreeWorld { parameters: Vec::new() };
+
+/// So far from the centre that rows are regular.
+const FAR: i32 = 64;
+
+/// A chain of old points longer than this means that a value depends on itself outside the neighbourhood.
+const LONGEST_CHAIN: usize = 64;
+
+impl<'a> Net<'a> {
+    /// The net of a scheme; `forms` are what holds for all valences.
+    ///
+    /// # Errors
+    /// When a weight of frequency 1 depends on n in other ways than through c, lambda has not just one eigenvector there, or a limit of size is passed.
+    pub fn of(scheme: &'a Scheme, lattice: Lattice, forms: &AllValences, course: Course) -> Result<Net<'a>, Obstacle> {
+        let count = Count::Free { n: Free::variable(N), like: GENERIC };
+        let weights = ExactWeights::new(&WORLD, count, GENERIC, Rc::new(Cell::new(0)));
+        let refinement = Refinement::weighed(scheme, weights);
+        let values = eigenvector(forms, &course)?;
+        Ok(Net { course, patch: Patch::new(lattice, GENERIC), refinement, values })
+    }
+
+    /// The value at (i, j) in the coordinates of sector 0, which may reach into the sectors beside it.
+    ///
+    /// # Errors
+    /// As [`Net::of`].
+    pub fn at(&mut self, i: i32, j: i32) -> Result<Pair, Obstacle> {
+        let label = self.patch.point(0, i, j);
+        self.value(label, 0)
+    }
+
+    /// The values that have been asked for, by orbit.
+    pub fn values(&self) -> &BTreeMap<Orbit, Pair> {
+        &self.values
+    }
+
+    fn value(&mut self, label: Label, depth: usize) -> Result<Pair, Obstacle> {
+        if self.patch.centre() == Some(label) {
+            return Ok((Function::whole(0), Function::whole(0)));
+        }
+        let own = match self.values.get(&label.orbit()) {
+            Some(own) => own.clone(),
+            None => self.made(label.orbit(), depth)?,
+        };
+        Ok(turned(own, sectors(label), &self.course.c)?)
+    }
+
+    /// f = (S f)/lambda.
+    fn made(&mut self, orbit: Orbit, depth: usize) -> Result<Pair, Obstacle> {
+        if depth > LONGEST_CHAIN {
+            return Err(Obstacle::Limit("a value of the net depends on itself".to_string()));
+        }
+        let (a, b) = self.image(orbit, depth)?;
+        let value = (a.over(&self.course.lambda)?, b.over(&self.course.lambda)?);
+        self.values.insert(orbit, value.clone());
+        Ok(value)
+    }
+
+    /// S f at an orbit's point in sector 0, from the scheme's own rules.
+    fn image(&mut self, (i, j): Orbit, depth: usize) -> Result<Pair, Obstacle> {
+        let row = self.refinement.row(&self.patch, Label { sector: 0, i, j })?;
+        let mut sum = (Function::whole(0), Function::whole(0));
+        for (old, weight) in row {
+            let weight = in_parameter(weight.value(Some(1)), &self.course.c)?;
+            let (a, b) = self.value(old, depth + 1)?;
+            sum = (sum.0.plus(&a.times(&weight)?)?, sum.1.plus(&b.times(&weight)?)?);
+        }
+        Ok(sum)
+    }
+
+    /// Whether S f = lambda f holds at every orbit that has a value.
+    ///
+    /// # Errors
+    /// As [`Net::of`].
+    pub fn satisfies_its_equation(&mut self) -> Result<bool, Obstacle> {
+        for (orbit, (a, b)) in self.values.clone() {
+            let (image_a, image_b) = self.image(orbit, 0)?;
+            let lambda = &self.course.lambda;
+            if image_a != a.times(lambda)? || image_b != b.times(lambda)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether the row of the new point at (i, j) in the coordinates of sector 0 is that of a regular mesh.
+    ///
+    /// # Errors
+    /// As [`Net::at`].
+    pub fn is_regular_row(&self, i: i32, j: i32) -> Result<bool, Obstacle> {
+        let own = self.refinement.row(&self.patch, self.patch.point(0, i, j))?;
+        let far = self.refinement.row(&self.patch, Label { sector: 0, i: i + 2 * FAR, j: j + 2 * FAR })?;
+        let here = |label: Label| self.patch.point(0, label.i - FAR, label.j - FAR);
+        let mut regular: Vec<_> = far.into_iter().map(|(label, weight)| (here(label), weight)).collect();
+        let mut own: Vec<_> = own.into_iter().collect();
+        regular.sort_by_key(|(label, _)| *label);
+        own.sort_by_key(|(label, _)| *label);
+        let alike = |((p, v), (q, w)): (&(Label, PerFrequency<Free>), &(Label, PerFrequency<Free>))| {
+            p == q && v.value(Some(1)) == w.value(Some(1))
+        };
+        Ok(own.len() == regular.len() && own.iter().zip(&regular).all(alike))
+    }
+
+    /// Whether the values, c and lambda have no pole in an interval.
+    ///
+    /// # Errors
+    /// When a limit of size is passed.
+    pub fn has_no_pole(&self, on: &Interval) -> Result<bool, Trouble> {
+        let values = self.values.values().flat_map(|(a, b)| [a, b]).chain([&self.course.c, &self.course.lambda]);
+        for value in values {
+            let below = value.denominator();
+            if !is_positive(&below.times(below)?, on)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Puts another value in place of one, for tests of what is refused.
+    pub fn replace(&mut self, orbit: Orbit, value: Pair) {
+        self.values.insert(orbit, value);
+    }
+}
+
+fn sectors(label: Label) -> i64 {
+    let (sector, n) = (i64::from(label.sector), GENERIC as i64);
+    if 2 * sector > n { sector - n } else { sector }
+}
+
+/// A value times a power of w.
+///
+/// # Errors
+/// When a limit of size is passed.
+pub fn turned((mut a, mut b): Pair, by: i64, c: &Function) -> Result<Pair, Trouble> {
+    let twice = c.times(&Function::whole(2))?;
+    for _ in 0..by.abs() {
+        (a, b) = match by > 0 {
+            true => (b.negated(), a.plus(&twice.times(&b)?)?),
+            false => (twice.times(&a)?.plus(&b)?, a.negated()),
+        };
+    }
+    Ok((a, b))
+}
+
+/// A weight as a function of p.
+fn in_parameter(weight: &Free, c: &Function) -> Result<Function, Trouble> {
+    if (0..6).any(|index| index != C && weight.mentions(index)) {
+        return Err(Trouble::BeyondThisWorld("a weight of frequency 1 depends on n or a parameter"));
+    }
+    let mut values = vec![Function::whole(0); 6];
+    values[C] = c.clone();
+    weight.evaluate(&values)
+}
+
+/// The values on the full neighbourhood: the one vector v with B_1 v = lambda v, scaled so that the first one that is not 0 is a positive number.
+fn eigenvector(forms: &AllValences, course: &Course) -> Result<BTreeMap<Orbit, Pair>, Trouble> {
+    let block = Block::of(&forms.rows, Some(1), Wave::Cosine(Free::variable(C)))?;
+    let entry = |value: &Free| in_parameter(value, &course.c);
+    let matrix: Vec<Vec<Function>> =
+        block.matrix.iter().map(|row| row.iter().map(entry).collect()).collect::<Result<_, _>>()?;
+    let all: Vec<usize> = (0..matrix.len()).collect();
+    let kernel = null_space(&shifted(&part(&matrix, &all), &course.lambda)?)?;
+    let [vector] = &kernel[..] else {
+        return Err(Trouble::BeyondThisWorld("the subdominant eigenvalue has not just one vector of frequency 1"));
+    };
+    let zero = Trouble::BeyondThisWorld("the vector is zero");
+    let scale = vector.iter().find(|value| !value.is_certainly_zero()).ok_or(zero)?;
+    let scaled: Vec<Function> = vector.iter().map(|value| value.over(scale)).collect::<Result<_, _>>()?;
+    let (nothing, c) = (Function::whole(0), &course.c);
+    let mut values = BTreeMap::new();
+    for (index, unknown) in block.unknowns.iter().enumerate() {
+        let own = scaled[index].clone();
+        match *unknown {
+            Unknown::Own(t) => {
+                let shift = forms.rows.mirrors[t].1;
+                let start = if shift % 2 == 0 { (own, nothing.clone()) } else { (own.clone(), own) };
+                values.insert(forms.rows.orbits[t], turned(start, shift.div_euclid(2), c)?);
+            }
+            Unknown::First(t, u) => {
+                let (shift, next) = (forms.rows.mirrors[t].1, scaled[index + 1].clone());
+                // the conjugate of a + b w is a + b/w = (a + 2 c b) - b w
+                let other = own.plus(&c.times(&Function::whole(2))?.times(&next)?)?;
+                let image = turned((other, next.negated()), shift, c)?;
+                values.insert(forms.rows.orbits[t], (own, next));
+                values.insert(forms.rows.orbits[u], image);
+            }
+            _ => {}
+        }
+    }
+    Ok(values)
+}
