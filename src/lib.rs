@@ -7,8 +7,9 @@
 //! 3. [`analysis`]: the local subdivision matrix at a valence ([`analysis::local`]), its blocks by the discrete Fourier transform
 //!    ([`analysis::blocks`]), their eigenvalues ([`analysis::spectrum`]), limit and tangent masks ([`analysis::masks`]), and the
 //!    characteristic map ([`analysis::charmap`]); at a boundary or crease the same by a mirror alone ([`analysis::boundary`]).
-//! 4. [`verdicts`]: what follows, and from which theorem?
-//! 5. [`report`]: tables and pictures.
+//! 4. [`proof`]: what holds for every valence at once?
+//! 5. [`verdicts`]: what follows, and from which theorem?
+//! 6. [`report`]: tables and pictures.
 //!
 //! Curves have the same pipeline in small: [`scheme::curve`], [`refine::curve`], [`analysis::curve`], [`report::curve`].
 //!

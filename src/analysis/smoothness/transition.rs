@@ -1,7 +1,7 @@
 //! How does one step act on so few points that they make the next ones by themselves?
 //!
 //! Let b_0, ..., b_N be a mask of arity a and n = max(1, ceil(N/(a-1))). Then n neighbouring points decide n + a - 1 neighbouring ones of
-//! the next level, and T_e takes them to those from the e-th on: T_e[i][j] = b_{i + e + N - a + 1 - a j}, e = 0, ..., a - 1. Every row of L steps
+//! the next level, and T_e takes them to those from the e-th on: (T_e)_{ij} = b_{i + e + N - a + 1 - a j}, e = 0, ..., a - 1. Every row of L steps
 //! is a row of a product of L of these matrices, and every product is made of such rows; so the norms grow alike (Daubechies and Lagarias 1992).
 
 use crate::numbers::linear::Matrix;
