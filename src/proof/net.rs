@@ -24,6 +24,9 @@ pub type Function = Quotient<RBig>;
 /// A value a + b w.
 pub type Pair = (Function, Function);
 
+/// An old point and its weight in the row of a new one.
+type Entry = (Label, PerFrequency<Free>);
+
 /// How c and lambda depend on the parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
@@ -139,9 +142,7 @@ impl<'a> Net<'a> {
         let mut own: Vec<_> = own.into_iter().collect();
         regular.sort_by_key(|(label, _)| *label);
         own.sort_by_key(|(label, _)| *label);
-        let alike = |((p, v), (q, w)): (&(Label, PerFrequency<Free>), &(Label, PerFrequency<Free>))| {
-            p == q && v.value(Some(1)) == w.value(Some(1))
-        };
+        let alike = |((p, v), (q, w)): (&Entry, &Entry)| p == q && v.value(Some(1)) == w.value(Some(1));
         Ok(own.len() == regular.len() && own.iter().zip(&regular).all(alike))
     }
 
