@@ -5,7 +5,8 @@ use super::open::open;
 use super::{Failure, print};
 use clap::Args;
 use eigenring::analysis::Analyzer;
-use eigenring::proof::map::{Outcome, prove};
+use eigenring::proof::map::{MapProof, prove};
+use eigenring::proof::outcome::Outcome;
 use eigenring::refine;
 use std::fmt::Write;
 
@@ -29,11 +30,12 @@ impl Certify {
         let analyzer = Analyzer::new(&scheme).map_err(|obstacle| explain(&scheme, obstacle))?;
         let mut text = format!("{}, every valence at once\n", scheme.book.title);
         let _ = match prove(&analyzer) {
-            Outcome::Proved { from, functions, degree, .. } => writeln!(
+            Outcome::Proved(MapProof { valences, functions, degree, .. }) => writeln!(
                 text,
-                "  characteristic map: proved regular and injective for every n >= {from}, in exact arithmetic\n    \
+                "  characteristic map: proved regular and injective for {valences}, in exact arithmetic\n    \
                  ({functions} rational functions of degree at most {degree} are positive on an interval)"
             ),
+            Outcome::Refuted { witness } => writeln!(text, "  characteristic map: refuted; {witness}"),
             Outcome::Undecided { at } => writeln!(text, "  characteristic map: undecided; {at}"),
         };
         text.push_str(

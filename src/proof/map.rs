@@ -8,79 +8,71 @@
 use super::course::{Range, range};
 use super::jacobian::Pieces;
 use super::net::{Function, Net, Pair};
+use super::outcome::{Outcome, Valences};
 use super::positive::is_positive_quotient;
 use crate::analysis::Analyzer;
 use crate::mesh::Lattice;
 use crate::numbers::{Field, Trouble};
 use crate::refine::Obstacle;
 
-/// What a proof attempt came to; that a proof is not found refutes nothing.
+/// How a map was proved regular and injective.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
-    /// It holds, for every n from `from` on.
-    Proved {
-        /// The first n that the scheme's rules are the same from.
-        from: usize,
-        /// The parametrisation and its range.
-        range: Range,
-        /// How many functions were shown to be positive.
-        functions: usize,
-        /// Their largest degree.
-        degree: usize,
-    },
-    /// It is not decided.
-    Undecided {
-        /// Where it got stuck.
-        at: String,
-    },
+pub struct MapProof {
+    /// The valences that it is proved for.
+    pub valences: Valences,
+    /// The parametrisation and its range.
+    pub range: Range,
+    /// How many functions were shown to be positive.
+    pub functions: usize,
+    /// Their largest degree.
+    pub degree: usize,
 }
 
 /// Whether the characteristic maps of all n are regular and injective. Nothing is said of the spectrum: whether lambda is subdominant at every n is a
 /// condition of its own.
-pub fn prove(analyzer: &Analyzer) -> Outcome {
-    attempt(analyzer).unwrap_or_else(|obstacle| stuck(obstacle.to_string()))
+pub fn prove(analyzer: &Analyzer) -> Outcome<MapProof> {
+    attempt(analyzer).unwrap_or_else(|obstacle| Outcome::stuck(obstacle.to_string()))
 }
 
-fn stuck(at: impl Into<String>) -> Outcome {
-    Outcome::Undecided { at: at.into() }
-}
-
-fn attempt(analyzer: &Analyzer) -> Result<Outcome, Obstacle> {
+fn attempt(analyzer: &Analyzer) -> Result<Outcome<MapProof>, Obstacle> {
     let lattice = analyzer.lattice();
     let forms = match analyzer.forms() {
         Ok(forms) => forms,
-        Err(why) => return Ok(stuck(why)),
+        Err(why) => return Ok(Outcome::stuck(why)),
     };
     if !forms.parameters.is_empty() {
-        return Ok(stuck("a parameter is left free"));
+        return Ok(Outcome::stuck("a parameter is left free"));
     }
     if forms.except.is_some() {
-        return Ok(stuck("the regular valence has rules of its own"));
+        return Ok(Outcome::stuck("the regular valence has rules of its own"));
     }
     if analyzer.steps() != 1 || analyzer.dilation() != 2 {
-        return Ok(stuck("the lattice is not halved by each step"));
+        return Ok(Outcome::stuck("the lattice is not halved by each step"));
     }
     let spline = analyzer.regular().ok().and_then(|regular| regular.spline.as_ref());
     let Some(pieces) = spline.and_then(|spline| Pieces::of(spline, lattice)) else {
-        return Ok(stuck("limit functions on regular meshes are not of a kind whose Bezier points are known here"));
+        return Ok(Outcome::stuck(
+            "limit functions on regular meshes are not of a kind whose Bezier points are known here",
+        ));
     };
     let Some(range) = range(forms)? else {
-        return Ok(stuck("c and the subdominant eigenvalue are not rational functions of one parameter"));
+        return Ok(Outcome::stuck("c and the subdominant eigenvalue are not rational functions of one parameter"));
     };
     let scheme = analyzer.scheme().with_values();
     let mut net = Net::of(&scheme, lattice, forms, range.course.clone())?;
     if !is_positive_quotient(&range.course.lambda, &range.interval)? {
-        return Ok(stuck("the subdominant eigenvalue is not seen to be positive"));
+        return Ok(Outcome::stuck("the subdominant eigenvalue is not seen to be positive"));
     }
     if analyzer.clear_of_centre() > 1 << LEVELS || !is_regular(&net, pieces)? {
-        return Ok(stuck("rules at the extraordinary point reach into the ring"));
+        return Ok(Outcome::stuck("rules at the extraordinary point reach into the ring"));
     }
     let functions = match verify(&mut net, pieces, lattice, &range)? {
         Ok(functions) => functions,
-        Err(at) => return Ok(stuck(at)),
+        Err(at) => return Ok(Outcome::stuck(at)),
     };
     let degree = functions.iter().filter_map(|own| own.numerator().degree().max(own.denominator().degree())).max();
-    Ok(Outcome::Proved { from: forms.from, range, functions: functions.len(), degree: degree.unwrap_or(0) })
+    let valences = Valences::From(forms.from);
+    Ok(Outcome::Proved(MapProof { valences, range, functions: functions.len(), degree: degree.unwrap_or(0) }))
 }
 
 /// So many levels on, rows on the ring keep clear of the centre.

@@ -9,4 +9,5 @@ pub mod course;
 pub mod jacobian;
 pub mod map;
 pub mod net;
+pub mod outcome;
 pub mod positive;
