@@ -8,6 +8,7 @@
 pub mod course;
 pub mod jacobian;
 pub mod map;
+pub mod maps;
 pub mod net;
 pub mod outcome;
 pub mod positive;
