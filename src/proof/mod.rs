@@ -11,3 +11,4 @@ pub mod map;
 pub mod net;
 pub mod outcome;
 pub mod positive;
+pub mod spectrum;
