@@ -12,3 +12,4 @@ pub mod maps;
 pub mod net;
 pub mod outcome;
 pub mod positive;
+pub mod spectrum;
