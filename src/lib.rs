@@ -18,7 +18,7 @@
 //!
 //! ```
 //! use eigenring::analysis::Analyzer;
-//! use eigenring::proof::maps::Maps;
+//! use eigenring::proof::c1::Proofs;
 //! use eigenring::refine;
 //! use eigenring::scheme::Scheme;
 //! use eigenring::verdicts::{Decision, verdicts};
@@ -51,8 +51,8 @@
 //! let sum: f64 = mask.weights(&analysis.local).iter().map(|(_, weight)| weight).sum();
 //! assert!((sum - 1.0).abs() < 1e-15);
 //!
-//! let maps = Maps::of(&analyzer);                         // characteristic maps of every valence, proved regular and injective
-//! let found = verdicts(&analysis, &sums, &maps.at(5, analysis.exact.as_ref().ok()));
+//! let proofs = Proofs::of(&analyzer);                     // characteristic maps of every valence, proved regular and injective
+//! let found = verdicts(&analysis, &sums, &proofs.at(5, analysis.exact.as_ref().ok()));
 //! let c1 = found.iter().find(|verdict| verdict.claim == "C1").ok_or("no verdict")?;
 //! assert_eq!(c1.verdict, Decision::Proved);               // or refuted, or undecided: `why` tells
 //!
