@@ -9,15 +9,15 @@ use crate::analysis::exact::ExactAnalysis;
 use dashu_ratio::RBig;
 
 /// What is proved of a scheme's characteristic maps.
-#[derive(Clone, Debug)]
-pub struct Maps {
+pub struct Maps<'p, 's> {
+    analyzer: &'p Analyzer<'s>,
     every: Outcome<MapProof>,
 }
 
-impl Maps {
+impl<'p, 's> Maps<'p, 's> {
     /// Tries to prove the maps of all valences.
-    pub fn of(analyzer: &Analyzer) -> Maps {
-        Maps { every: map::prove(analyzer) }
+    pub fn of(analyzer: &'p Analyzer<'s>) -> Maps<'p, 's> {
+        Maps { analyzer, every: map::prove(analyzer) }
     }
 
     /// What was proved for all valences.
