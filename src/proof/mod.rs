@@ -4,9 +4,12 @@
 //! piecewise polynomial and whose subdominant eigenvalue and c = cos(2 pi/n) are rational functions of one parameter ([`course`]). The net's
 //! values are rational functions of it ([`net`]), and so are the Bernstein coefficients of the Jacobian ([`jacobian`]); each is positive on the
 //! parameter's whole range ([`positive`]).
+//!
+//! Schemes on triangles whose limits are no polynomials: by enclosed derivatives ([`derivative`]).
 
 pub mod c1;
 pub mod course;
+pub mod derivative;
 pub mod jacobian;
 pub mod map;
 pub mod maps;
