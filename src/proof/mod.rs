@@ -8,6 +8,7 @@
 //! ([`boxes`]).
 
 pub mod b_spline;
+pub mod boxes;
 pub mod c1;
 pub mod course;
 pub mod jacobian;
