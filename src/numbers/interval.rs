@@ -84,6 +84,11 @@ impl Interval {
         self.hi < 0.0
     }
 
+    /// Does it lie in the interior of `other`, as the theorem of Krawczyk asks?
+    pub fn is_inside(self, other: Interval) -> bool {
+        other.lo < self.lo && self.hi < other.hi
+    }
+
     /// A floating-point number between the ends, near their middle.
     pub fn middle(self) -> f64 {
         let middle = 0.5 * self.lo + 0.5 * self.hi;
