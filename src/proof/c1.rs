@@ -6,6 +6,7 @@
 use super::maps::Maps;
 use super::outcome::Outcome;
 use super::spectrum::refutation::{against_c1, is_effective};
+use super::spectrum::{range, tail};
 use crate::analysis::Analyzer;
 use crate::analysis::exact::ExactAnalysis;
 
@@ -49,7 +50,31 @@ impl<'p, 's> Proofs<'p, 's> {
 
     /// What is proved at every valence from one on. `affine` tells whether the weights of every rule sum to 1 at every valence.
     pub fn tail(&self, affine: bool) -> Tail {
-        let _ = affine;
-        Tail { from: 3, c1: Outcome::stuck("the order of the eigenvalues") }
+        self.attempt(affine).unwrap_or_else(|at| Tail { from: 3, c1: Outcome::stuck(at) })
+    }
+
+    fn attempt(&self, affine: bool) -> Result<Tail, String> {
+        let forms = self.analyzer.forms()?;
+        if self.effective {
+            if let Some((from, witness)) = range::against_c1(forms).map_err(|trouble| trouble.to_string())? {
+                return Ok(Tail { from, c1: Outcome::Refuted { witness } });
+            }
+        }
+        if !affine {
+            return Err("the weights are not shown to sum to 1".to_string());
+        }
+        if self.analyzer.regular()?.smoothness.is(1) != Some(true) {
+            return Err("limits on regular meshes are not proved to be C1".to_string());
+        }
+        let order = tail::prove(forms).map_err(|trouble| trouble.to_string())??;
+        match self.maps.from() {
+            Outcome::Proved((first, map)) => {
+                let from = order.from.max(first).max(order.except.map_or(3, |n| n + 1));
+                let order = format!("the order of the eigenvalues is proved for every n >= {} at once", order.from);
+                let c1 = format!("every condition of Reif's theorem is proved: {order}, the characteristic map {map}");
+                Ok(Tail { from, c1: Outcome::Proved(c1) })
+            }
+            Outcome::Refuted { witness: at } | Outcome::Undecided { at } => Err(at),
+        }
     }
 }

@@ -5,6 +5,7 @@ use crate::numbers::{Angle, EnclosedWorld, Interval, World};
 use crate::proof::jacobian::Pieces;
 use crate::proof::outcome::Valences;
 use dashu_ratio::RBig;
+use std::fmt;
 
 /// A proof.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +31,14 @@ pub struct CosineBox {
     pub c: Interval,
     /// lambda.
     pub lambda: Interval,
+}
+
+impl fmt::Display for EnclosedMap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let boxes = self.boxes.iter().filter(|own| own.only.is_none()).count();
+        let at_once = if boxes == 0 { String::new() } else { format!(" on {boxes} boxes of cos(2 pi/n)") };
+        write!(f, "for {} by enclosed Bezier points of {} patches{at_once}", self.valences, self.patches)
+    }
 }
 
 impl EnclosedMap {

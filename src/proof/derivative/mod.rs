@@ -31,6 +31,7 @@ use lebesgue::{Lebesgue, differences, lebesgue};
 use net::Net;
 use regularity::{Rows, points};
 use std::collections::BTreeMap;
+use std::fmt;
 use sweep::{Coefficients, Sweep, Swept};
 
 /// How a map was proved regular and injective.
@@ -54,6 +55,16 @@ pub struct DerivativeProof {
     pub derivatives: Lebesgue,
     /// L_f, for the values.
     pub values: Lebesgue,
+}
+
+impl fmt::Display for DerivativeProof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let at_once = match self.valences {
+            Valences::At(_) => String::new(),
+            Valences::From(_) => format!(" on {} intervals of a parameter", self.boxes),
+        };
+        write!(f, "for {} by enclosed derivatives on {} cells{at_once}", self.valences, self.cells)
+    }
 }
 
 /// Whether the characteristic maps of these valences are regular and injective, for the subdominant eigenvalue that
