@@ -76,21 +76,7 @@ fn other_schemes_are_undecided() {
 }
 
 /// The rules of Zorin, Schroeder and Sweldens with another first wave: the ring's sum of frequency 1 is 4/5.
-const FOLDED: &str = r#"
-name   = "Folded"
-mesh   = "triangles"
-split  = "1-to-4"
-[vertex]
-centre = "1"
-[edge]
-ends     = "1/2"
-opposite = "1/8"
-wings    = "-1/16"
-[edge.from-irregular-end]
-centre = "3/4"
-[edge.from-irregular-end.ring]
-"n >= 3" = "(1/4 + (8/5)*cos(2*pi*j/n) + cos(4*pi*j/n)/2)/n"
-"#;
+const FOLDED: &str = include_str!("schemes/folded-triangles.toml");
 
 #[test]
 fn a_fold_is_refuted() {

@@ -1,0 +1,101 @@
+//! Is C1 decided at every valence as the literature has it, and as each valence by itself says?
+#![allow(clippy::unwrap_used)]
+
+use eigenring::analysis::Analyzer;
+use eigenring::proof::c1::Proofs;
+use eigenring::refine;
+use eigenring::scheme::{Scheme, catalogue};
+use eigenring::verdicts::{Decision, EveryValence};
+
+fn open(id: &str) -> Scheme {
+    catalogue::open(id).unwrap().unwrap()
+}
+
+fn parse(text: &str) -> Scheme {
+    Scheme::parse("own", "own.toml", text).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+fn every(scheme: &Scheme) -> EveryValence {
+    let sums = refine::check(scheme, &[3, 4, 5, 6, 7, 8]).unwrap();
+    let analyzer = Analyzer::new(scheme).unwrap();
+    EveryValence::of(&Proofs::of(&analyzer), &sums, &|_| None).unwrap()
+}
+
+fn only(scheme: &Scheme, valences: &[usize]) -> EveryValence {
+    let sums = refine::check(scheme, valences).unwrap();
+    let analyzer = Analyzer::new(scheme).unwrap();
+    EveryValence::only(&Proofs::of(&analyzer), &sums, valences).unwrap()
+}
+
+/// Peters and Reif (1998) for Catmull and Clark's scheme and Doo and Sabin's; Zorin (2000) for Loop's and both butterflies; Zorin and Schroeder
+/// (2001), Prautzsch and Chen (2011) for the midpoint schemes.
+#[test]
+fn schemes_are_c1_where_the_literature_says_so() {
+    for id in ["loop", "loop-warren", "catmull-clark", "doo-sabin", "catmull-clark-biquadratic", "modified-butterfly"] {
+        let found = every(&open(id));
+        assert_eq!(found.statement, "proved for every n >= 3", "{id}: {found:?}");
+    }
+    let butterfly = every(&open("butterfly"));
+    assert_eq!(butterfly.statement, "proved for n = 4..7; refuted for n = 3 and every n >= 8", "{butterfly:?}");
+}
+
+#[test]
+fn midpoint_schemes_are_c1() {
+    for degree in 2..=9 {
+        let mut scheme = open("midpoint");
+        scheme.book.set("d", &degree.to_string()).unwrap();
+        let found = every(&scheme);
+        assert_eq!(found.statement, "proved for every n >= 3", "{degree}: {found:?}");
+    }
+}
+
+/// The conditions of a valence by itself, looked at without what is said of all at once.
+#[test]
+fn single_valences_agree_with_what_is_said_of_all() {
+    for id in ["loop", "doo-sabin", "modified-butterfly", "butterfly"] {
+        let (scheme, alone) = (open(id), [13, 20, 31]);
+        let said = every(&scheme);
+        for n in alone {
+            let holds = |own: &&eigenring::verdicts::Stretch| own.from <= n && own.to.is_none_or(|to| n <= to);
+            let of_all = said.stretches.iter().find(holds).unwrap().verdict;
+            assert_eq!(only(&scheme, &[n]).stretches[0].verdict, of_all, "{id} {n}");
+            assert_ne!(of_all, Decision::Undecided);
+        }
+    }
+}
+
+#[test]
+fn folds_are_refuted() {
+    for (text, n) in [
+        (include_str!("schemes/folded-triangles.toml"), 16),
+        (include_str!("schemes/folded-corners.toml"), 3),
+    ] {
+        let found = only(&parse(text), &[n]);
+        assert_eq!(found.statement, format!("refuted for n = {n}"), "{found:?}");
+        assert!(found.stretches[0].why[0].contains("the Jacobian is"), "{found:?}");
+    }
+}
+
+/// A scheme that is wrong at one valence only is proved at the others; Warren's 3/(8 n) at n = 3 is an exact tie.
+#[test]
+fn one_bad_valence_is_found() {
+    let text = catalogue::scheme("loop-warren").unwrap().text.split("[[claims]]").next().unwrap();
+    let tie = text.replace("\"n == 3\" = \"3/16\"", "").replace("\"n > 3\"", "\"n >= 3\"");
+    let found = every(&parse(&tie));
+    assert_eq!(found.statement, "proved for every n >= 4; refuted for n = 3", "{found:?}");
+    // a weight mistyped so that the sums stay: the scheme is judged as the one it is
+    let slip = text.replace("\"n > 3\"", "\"n == 9\" = \"1/900\"\n\"n > 3\"");
+    let found = every(&parse(&slip));
+    assert!(found.statement.contains("refuted for n = 9"), "{found:?}");
+    assert!(found.stretches.iter().all(|own| own.verdict != Decision::Undecided), "{found:?}");
+}
+
+/// Limits of the 8-point butterfly with w = 0.13 are not C1 on regular meshes: nothing may be proved.
+#[test]
+fn a_scheme_that_is_not_c1_on_regular_meshes_is_never_proved() {
+    let text = catalogue::scheme("butterfly").unwrap().text.split("[[claims]]").next().unwrap();
+    let wide = text.replace("1/16", "13/100").replace("1/8", "26/100");
+    assert_ne!(wide, text);
+    let found = every(&parse(&wide));
+    assert!(found.stretches.iter().all(|own| own.verdict != Decision::Proved), "{found:?}");
+}
