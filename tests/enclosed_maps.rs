@@ -4,17 +4,17 @@
 use dashu_ratio::RBig;
 use eigenring::analysis::Analyzer;
 use eigenring::analysis::exact::Value;
-use eigenring::mesh::Patch;
 use eigenring::numbers::{Enclosure, Field, Interval};
 use eigenring::proof::boxes::cover::Family;
 use eigenring::proof::boxes::enclosed_map::EnclosedMap;
-use eigenring::proof::boxes::enclosed_net::EnclosedNet;
-use eigenring::proof::boxes::signed::Signed;
-use eigenring::proof::boxes::{prove, valence};
+use eigenring::proof::boxes::prove;
 use eigenring::proof::course::range;
-use eigenring::proof::jacobian::{ControlNet, Pieces};
+use eigenring::proof::enclosed_net::EnclosedNet;
+use eigenring::proof::jacobian::Pieces;
 use eigenring::proof::net::Net;
 use eigenring::proof::outcome::{Outcome, Valences};
+use eigenring::proof::signed::Signed;
+use eigenring::proof::valence::net_at;
 use eigenring::scheme::{Scheme, catalogue};
 
 const POLYNOMIAL: [&str; 5] = ["loop", "loop-warren", "catmull-clark", "doo-sabin", "catmull-clark-biquadratic"];
@@ -122,8 +122,7 @@ fn with_net<T>(scheme: &Scheme, n: usize, look: impl FnOnce(&mut EnclosedNet<Val
     let analyzer = Analyzer::new(scheme).unwrap();
     let exact = analyzer.at(n).unwrap().exact.unwrap();
     let with_values = scheme.with_values();
-    let patch = Patch::new(analyzer.lattice(), n);
-    look(&mut valence::net_at(&with_values, &exact, patch).unwrap().unwrap())
+    look(&mut net_at(&with_values, analyzer.lattice(), n, &exact).unwrap().unwrap())
 }
 
 /// c is rational at n = 3, 4, 6: there the exact net of all n has exact values. Enclosures over a box around that c
@@ -167,12 +166,12 @@ fn nets_satisfy_their_equation_and_tampered_ones_do_not() {
         with_net(scheme, n, |net| {
             net.at(6, 5).unwrap();
             assert!(net.may_satisfy_its_equation().unwrap());
-            let values = net.values.clone();
+            let values = net.values().clone();
             for (orbit, (a, b)) in &values {
                 let tiny = Enclosure::rational(&(RBig::ONE / RBig::from(1_000_000_000)));
-                net.values.insert(*orbit, (a.plus(&tiny).unwrap(), b.clone()));
+                net.replace(*orbit, (a.plus(&tiny).unwrap(), b.clone()));
                 assert!(!net.may_satisfy_its_equation().unwrap(), "{} {n} {orbit:?}", scheme.id);
-                net.values.clone_from(&values);
+                net.replace(*orbit, (a.clone(), b.clone()));
             }
         });
     }
@@ -187,8 +186,8 @@ fn nets_over_boxes_satisfy_their_equation_and_tampered_ones_do_not() {
         let mut net = family.net(0.25, 0.125).unwrap().unwrap();
         net.at(6, 5).unwrap();
         assert!(net.may_satisfy_its_equation().unwrap());
-        let (orbit, (a, b)) = net.values.first_key_value().map(|(orbit, pair)| (*orbit, *pair)).unwrap();
-        net.values.insert(orbit, (a.widened(Interval::point(0.125)), b));
+        let (orbit, (a, b)) = net.values().first_key_value().map(|(orbit, pair)| (*orbit, *pair)).unwrap();
+        net.replace(orbit, (a.widened(Interval::point(0.125)), b));
         assert!(!net.may_satisfy_its_equation().unwrap());
     }
 }

@@ -78,6 +78,14 @@ impl Pieces {
         }
     }
 
+    /// A new point at (i, j) has old points in its regular row within half of this around (i/2, j/2), in each index.
+    pub fn reach(self) -> i32 {
+        match self {
+            Pieces::Tensor(degree) => degree as i32 + 2,
+            Pieces::Quartic => 4,
+        }
+    }
+
     /// Where the controls of a patch are.
     pub fn stencil(self, ((x, y), sign): PatchAt) -> Vec<(i32, i32)> {
         match self {

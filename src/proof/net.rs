@@ -69,6 +69,14 @@ impl<'a> Net<'a> {
         Ok(Net { course, patch: Patch::new(lattice, GENERIC), refinement, values })
     }
 
+    /// The value at (i, j) in the coordinates of sector 0, which may reach into the sectors beside it.
+    ///
+    /// # Errors
+    /// As [`Net::of`].
+    pub fn at(&mut self, i: i32, j: i32) -> Result<Pair, Obstacle> {
+        self.value(self.patch.point(0, i, j), 0)
+    }
+
     /// The values that have been asked for, by orbit.
     pub fn values(&self) -> &BTreeMap<Orbit, Pair> {
         &self.values
@@ -164,8 +172,7 @@ impl ControlNet for Net<'_> {
     type Value = Function;
 
     fn at(&mut self, i: i32, j: i32) -> Result<Pair, Obstacle> {
-        let label = self.patch.point(0, i, j);
-        self.value(label, 0)
+        Net::at(self, i, j)
     }
 }
 

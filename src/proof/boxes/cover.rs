@@ -4,11 +4,8 @@
 //! each, everything is a Taylor form in c. A box where a sign is not seen is halved.
 
 use super::enclosed_map::CosineBox;
-use super::enclosed_net::EnclosedNet;
-use super::kernel::null_vector;
 use super::ring::{half_sector, least_radius};
 use super::root::largest_root;
-use super::signed::Signed;
 use super::signs::Reader;
 use super::taylor::Taylor;
 use crate::analysis::Analyzer;
@@ -20,13 +17,14 @@ use crate::mesh::{Label, Patch};
 use crate::numbers::linear::{Matrix, part, shifted};
 use crate::numbers::roots::roots;
 use crate::numbers::{C, Field, Free, FreeWorld, Interval, N, PerFrequency, Trouble, Univariate};
+use crate::proof::enclosed_net::EnclosedNet;
 use crate::proof::jacobian::{PatchAt, Pieces};
+use crate::proof::kernel::null_vector;
 use crate::proof::net::placed;
 use crate::refine::{Count, ExactWeights, Obstacle, Refinement};
 use crate::scheme::Scheme;
 use dashu_ratio::RBig;
 use std::cell::{Cell, RefCell};
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -145,7 +143,7 @@ impl<'s> Family<'s> {
         let c = Taylor::variable(m, r);
         let Some(start) = self.largest_root_at(m)? else { return Ok(None) };
         let Some(lambda) = largest_root(&at(self.subdominant, &in_place_of_c(&c))?, start)? else { return Ok(None) };
-        if lambda.sign() != Some(Ordering::Greater) {
+        if !lambda.range().is_positive() || lambda.range().hi() >= 1.0 {
             return Ok(None);
         }
         let values = in_place_of_c(&c);
@@ -164,7 +162,7 @@ impl<'s> Family<'s> {
             let row = self.row(Label { sector: 0, i, j })?;
             row.iter().map(|(old, weight)| Ok((*old, weight.evaluate(&here)?))).collect()
         };
-        Ok(Some(EnclosedNet { patch: self.patch, c, lambda, values, row: Box::new(row) }))
+        Ok(Some(EnclosedNet::new(self.patch, c, lambda, values, Box::new(row))?))
     }
 
     /// A number near the largest real root of the subdominant polynomial at one c.

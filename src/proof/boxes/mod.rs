@@ -1,24 +1,21 @@
 //! Is the characteristic map of a piecewise polynomial scheme regular and injective, by enclosures?
 //!
 //! The same two tests as in [`crate::proof::map`], for what that does not reach: single valences with rules of their
-//! own ([`valence`]), and B-splines of any degree, whose wider stencils ask for a ring further out ([`ring`]). Values
-//! are enclosed ([`enclosed_net`]), so that a sign is proven ([`signs`]): at one valence, or on boxes of c that cover
+//! own ([`super::valence`]), and B-splines of any degree, whose wider stencils ask for a ring further out ([`ring`]). Values
+//! are enclosed ([`super::enclosed_net`]), so that a sign is proven ([`signs`]): at one valence, or on boxes of c that cover
 //! all valences from one on ([`cover`]). Where the Jacobian is certainly negative at a point, the map is not injective
 //! (docs/theory.md).
 
 pub mod cover;
 pub mod enclosed_map;
-pub mod enclosed_net;
-pub mod kernel;
 pub mod ring;
 pub mod root;
-pub mod signed;
 pub mod signs;
 pub mod taylor;
-pub mod valence;
 
 use super::jacobian::Pieces;
 use super::outcome::{Outcome, Valences};
+use super::valence::net_at;
 use crate::analysis::Analyzer;
 use crate::analysis::exact::ExactAnalysis;
 use crate::mesh::Patch;
@@ -26,7 +23,7 @@ use crate::numbers::Interval;
 use crate::refine::Obstacle;
 use cover::Family;
 use enclosed_map::{CosineBox, EnclosedMap};
-use ring::half_sector;
+use ring::{half_sector, radius_at};
 use signs::Reader;
 
 /// A patch is quartered so often.
@@ -58,6 +55,7 @@ fn attempt_from(analyzer: &Analyzer, first: usize) -> Result<Outcome<EnclosedMap
         Err(why) => return Ok(Outcome::stuck(why)),
     };
     let Some(radius) = family.radius() else { return Ok(Outcome::stuck(NO_RING)) };
+    let first = first.max(3);
     let from = family.from().max(first);
     let mut whole = EnclosedMap { valences: Valences::From(first), pieces, radius, patches: 0, boxes: Vec::new() };
     for n in (first..from).chain(family.except().filter(|n| *n >= from)) {
@@ -88,19 +86,21 @@ pub fn prove_at(analyzer: &Analyzer, n: usize, analysis: &ExactAnalysis) -> Outc
 }
 
 fn attempt_at(analyzer: &Analyzer, n: usize, analysis: &ExactAnalysis) -> Result<Outcome<EnclosedMap>, Obstacle> {
+    if n < 3 {
+        return Ok(Outcome::stuck("the valence is below 3"));
+    }
     let pieces = match pieces(analyzer) {
         Ok(pieces) => pieces,
         Err(why) => return Ok(Outcome::stuck(why)),
     };
     let scheme = analyzer.scheme().with_values();
     let patch = Patch::new(analyzer.lattice(), n);
-    let Some(radius) = valence::radius_at(analyzer, &scheme, pieces, patch) else {
+    let Some(radius) = radius_at(analyzer, &scheme, pieces, patch) else {
         return Ok(Outcome::stuck(NO_RING));
     };
-    let Some(mut net) = valence::net_at(&scheme, analysis, patch)? else {
-        return Ok(Outcome::stuck(format!(
-            "n = {n}: no simple, real and positive subdominant eigenvalue of frequency 1"
-        )));
+    let mut net = match net_at(&scheme, analyzer.lattice(), n, analysis)? {
+        Ok(net) => net,
+        Err(why) => return Ok(Outcome::stuck(why)),
     };
     let signs = Reader::read(&mut net, pieces, &half_sector(pieces, radius), DEPTH)?;
     if !net.may_satisfy_its_equation()? {

@@ -6,9 +6,16 @@
 //! clear of those that are not regular. A patch is four smaller ones of the next level, whose net is the same net twice
 //! as far out.
 
+use crate::analysis::Analyzer;
 use crate::mesh::{Label, Patch};
+use crate::numbers::{AtValence, Cosine, PerFrequency};
 use crate::proof::jacobian::{PatchAt, Pieces};
+use crate::proof::valence::centre;
+use crate::refine::{Count, ExactWeights, Refinement};
+use crate::scheme::Scheme;
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 /// The row of a new point, in any form whose equality is exact; `None` where there is no such form.
 pub type ExactRow<'r, W> = dyn Fn(Label) -> Option<Vec<(Label, W)>> + 'r;
@@ -63,7 +70,7 @@ pub fn least_radius<W: PartialEq>(pieces: Pieces, patch: Patch, clear: i32, row:
             let controls: BTreeSet<(i32, i32)> = patches.flat_map(|at| pieces.stencil(at)).collect();
             controls
                 .into_iter()
-                .all(|(i, j)| *known.entry((i, j)).or_insert_with(|| is_regular(patch, clear, (i, j), row)))
+                .all(|(i, j)| *known.entry((i, j)).or_insert_with(|| is_regular(pieces, patch, clear, (i, j), row)))
         })
     })
 }
@@ -71,10 +78,12 @@ pub fn least_radius<W: PartialEq>(pieces: Pieces, patch: Patch, clear: i32, row:
 /// Controls of a patch are at most so far from it.
 const FURTHEST: i32 = 16;
 
-/// Whether the row of the new point at (i, j) in the coordinates of sector 0 is that of a regular mesh.
-fn is_regular<W: PartialEq>(patch: Patch, clear: i32, (i, j): (i32, i32), row: &ExactRow<W>) -> bool {
+/// Whether the row of the new point at (i, j) in the coordinates of sector 0 is that of a regular mesh in them. It is
+/// looked at where rules may see the centre, and where old points may lie in both sectors beside sector 0, which have the
+/// centre between them.
+fn is_regular<W: PartialEq>(pieces: Pieces, patch: Patch, clear: i32, (i, j): (i32, i32), row: &ExactRow<W>) -> bool {
     let label = patch.point(0, i, j);
-    if label.i + label.j >= clear {
+    if label.i + label.j >= clear && i.max(j) > pieces.reach() {
         return true;
     }
     let far = Label { sector: 0, i: i + 2 * FAR, j: j + 2 * FAR };
@@ -85,6 +94,21 @@ fn is_regular<W: PartialEq>(patch: Patch, clear: i32, (i, j): (i32, i32), row: &
     own.sort_by_key(|(label, _)| *label);
     regular.sort_by_key(|(label, _)| *label);
     own == regular
+}
+
+/// The least radius of a ring at valence n whose patches are refined by regular rules alone.
+pub fn radius_at(analyzer: &Analyzer, scheme: &Scheme, pieces: Pieces, patch: Patch) -> Option<i32> {
+    let n = patch.valence as usize;
+    let world = AtValence::new(n as u64);
+    let refinement: Option<Refinement<PerFrequency<Cosine>>> = world.as_ref().map(|world| {
+        let weights = ExactWeights::new(world, Count::Number, centre(scheme, n), Rc::new(Cell::new(0)));
+        Refinement::weighed(scheme, weights)
+    });
+    let row = |label: Label| {
+        let row = refinement.as_ref()?.row(&patch, label).ok()?;
+        Some(row.into_iter().map(|(old, weight)| (old, weight.value(Some(1)).clone())).collect())
+    };
+    least_radius(pieces, patch, analyzer.clear_of_centre(), &row)
 }
 
 #[cfg(test)]

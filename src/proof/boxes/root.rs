@@ -5,9 +5,9 @@
 //! -s(x)/s'(x_0) + (1 - s'(x + E)/s'(x_0)) E lies inside E, there is just one root in x + E. It is the largest real
 //! root where all derivatives of s are positive there: s grows from it on.
 
-use super::signed::Signed;
 use super::taylor::Taylor;
 use crate::numbers::{Field, Interval, Trouble, Univariate};
+use crate::proof::signed::Signed;
 use std::cmp::Ordering;
 
 /// Newton's steps: each gains at least one power of t.

@@ -5,10 +5,10 @@
 //! there, up to a positive factor: so one that is certainly negative is no failure of a bound, but a place where the
 //! map turns over.
 
-use super::enclosed_net::EnclosedNet;
 use super::ring::quarters;
-use super::signed::Signed;
+use crate::proof::enclosed_net::EnclosedNet;
 use crate::proof::jacobian::{Grid, PairOf, PatchAt, Pieces};
+use crate::proof::signed::Signed;
 use crate::refine::Obstacle;
 use std::cmp::Ordering;
 use std::fmt;
@@ -62,8 +62,6 @@ pub struct Reader<'n, 'r, F> {
     pieces: Pieces,
     depth: usize,
     signs: Signs,
-    /// The sign of the half-plane form at the first Bezier point: the net may be turned by half a turn.
-    side: Option<Ordering>,
 }
 
 impl<'n, 'r, F: Signed> Reader<'n, 'r, F> {
@@ -77,7 +75,7 @@ impl<'n, 'r, F: Signed> Reader<'n, 'r, F> {
         patches: &[PatchAt],
         depth: usize,
     ) -> Result<Signs, Obstacle> {
-        let mut reader = Reader { net, pieces, depth, signs: Signs::default(), side: None };
+        let mut reader = Reader { net, pieces, depth, signs: Signs::default() };
         for patch in patches {
             reader.visit(*patch, 0, [true, true])?;
         }
@@ -107,9 +105,7 @@ impl<'n, 'r, F: Signed> Reader<'n, 'r, F> {
 
     fn is_in_half_plane(&mut self, points: &Grid<PairOf<F>>) -> Result<bool, Obstacle> {
         for point in points.values() {
-            let sign = self.net.along_axis(point)?.sign().filter(|sign| sign.is_ne());
-            self.side = self.side.or(sign);
-            if sign.is_none() || sign != self.side {
+            if self.net.along_axis(point)?.sign() != Some(Ordering::Greater) {
                 return Ok(false);
             }
         }

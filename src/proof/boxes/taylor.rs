@@ -6,8 +6,8 @@
 //! interval arithmetic; the higher terms keep that the same c stands in all values (Moore 1966: mean-value forms;
 //! Makino and Berz 1996: Taylor models).
 
-use super::signed::Signed;
 use crate::numbers::{Field, Interval, Trouble};
+use crate::proof::signed::Signed;
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
 

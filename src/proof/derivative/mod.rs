@@ -3,7 +3,7 @@
 //! For schemes on triangles whose regular symbol is divisible by (1 + z_1)(1 + z_2)(1 + z_1/z_2): differences along
 //! each axis are refined by a scheme of their own, and those of differences along the other directions, too. So the
 //! derivatives on a cell are enclosed by the differences that they depend on ([`lebesgue`]), and cells are refined
-//! until the Jacobian's sign is told ([`sweep`]). At one valence the net is enclosed ([`net`]); for all valences at
+//! until the Jacobian's sign is told ([`sweep`]). At one valence the net is enclosed ([`super::valence`]); for all valences at
 //! once it is rational in a parameter and expanded on small intervals ([`every`], [`family`]). Zorin 2000 proves the
 //! same by other estimates.
 
@@ -11,15 +11,16 @@ pub mod cells;
 pub mod every;
 pub mod family;
 pub mod lebesgue;
-pub mod net;
 pub mod norms;
 pub mod regularity;
 pub mod sweep;
 
 use super::course::Range;
+use super::enclosed_net::EnclosedNet;
 use super::outcome::{Outcome, Valences};
+use super::valence::net_at;
 use crate::analysis::Analyzer;
-use crate::analysis::exact::ExactAnalysis;
+use crate::analysis::exact::{ExactAnalysis, Value};
 use crate::analysis::regular::factors::scaled;
 use crate::analysis::regular::mask::{Point, Sequence};
 use crate::mesh::Lattice;
@@ -28,7 +29,6 @@ use crate::refine::Obstacle;
 use crate::scheme::Scheme;
 use cells::{AXES, Cell, Local};
 use lebesgue::{Lebesgue, differences, lebesgue};
-use net::Net;
 use regularity::{Rows, points};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -158,9 +158,9 @@ impl Engine {
     /// The net at one valence for the subdominant eigenvalue of its exact analysis; else why there is none.
     ///
     /// # Errors
-    /// As [`Net::of`].
-    pub fn net(&self, n: usize, analysis: &ExactAnalysis) -> Result<Result<Net<'_>, String>, Obstacle> {
-        Net::of(&self.scheme, self.lattice, n, analysis)
+    /// As [`net_at`].
+    pub fn net(&self, n: usize, analysis: &ExactAnalysis) -> Result<Result<EnclosedNet<'_, Value>, String>, Obstacle> {
+        net_at(&self.scheme, self.lattice, n, analysis)
     }
 
     /// The inner radius of the ring at one valence, or of the one that all valences have.
@@ -218,12 +218,13 @@ impl Engine {
     ///
     /// # Errors
     /// As [`Engine::analysed`].
-    pub fn verify(&self, n: usize, net: &mut Net) -> Result<Outcome<DerivativeProof>, Obstacle> {
+    pub fn verify(&self, n: usize, net: &mut EnclosedNet<Value>) -> Result<Outcome<DerivativeProof>, Obstacle> {
         let Some(scale) = self.scale(Some(n))? else { return Ok(Outcome::stuck(NO_RING)) };
         let cells = Cell::ring(scale);
         let mut values: BTreeMap<Point, Coefficients> = BTreeMap::new();
         for [i, j] in points(&cells, &self.local) {
-            values.insert([i, j], net.interval_at(i, j)?.map(|own| vec![own]));
+            let (a, b) = net.at(i, j)?;
+            values.insert([i, j], [a, b].map(|own| vec![Interval::enclosing(&own)]));
         }
         if !net.may_satisfy_its_equation()? {
             return Ok(Outcome::stuck(NO_NET));
