@@ -67,9 +67,9 @@ impl<'p, 's> Proofs<'p, 's> {
             return Err("limits on regular meshes are not proved to be C1".to_string());
         }
         let order = tail::prove(forms).map_err(|trouble| trouble.to_string())??;
-        match self.maps.from() {
+        match self.maps.from(order.from) {
             Outcome::Proved((first, map)) => {
-                let from = order.from.max(first).max(order.except.map_or(3, |n| n + 1));
+                let from = first.max(order.except.map_or(3, |n| n + 1));
                 let order = format!("the order of the eigenvalues is proved for every n >= {} at once", order.from);
                 let c1 = format!("every condition of Reif's theorem is proved: {order}, the characteristic map {map}");
                 Ok(Tail { from, c1: Outcome::Proved(c1) })

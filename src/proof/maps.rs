@@ -49,13 +49,17 @@ impl<'p, 's> Maps<'p, 's> {
         ])
     }
 
-    /// Whether the maps of all valences from some one on are: the first of them, and how it is known. They belong to the largest real root of
-    /// [`crate::analysis::exact::formulas::AllValences::subdominant`].
-    pub fn from(&self) -> Outcome<(usize, String)> {
+    /// Whether the maps of all valences from `first` on are, or from a later one on: that valence, and how it is known. They belong to the
+    /// largest real root of [`crate::analysis::exact::formulas::AllValences::subdominant`].
+    pub fn from(&self, first: usize) -> Outcome<(usize, String)> {
         first_of([
-            &|| one_by_one(self.every.clone().map(|proof| (proof.valences.first(), proof.to_string()))),
-            &|| one_by_one(boxes::prove(self.analyzer, Valences::From(3)).map(|proof| (3, proof.to_string()))),
-            &|| one_by_one(self.by_engine(|engine| engine.from(self.analyzer, 3)).map(|proof| (3, proof.to_string()))),
+            &|| one_by_one(self.every.clone().map(|proof| (proof.valences.first().max(first), proof.to_string()))),
+            &|| one_by_one(boxes::prove(self.analyzer, Valences::From(first)).map(|proof| (first, proof.to_string()))),
+            &|| {
+                one_by_one(
+                    self.by_engine(|engine| engine.from(self.analyzer, first)).map(|proof| (first, proof.to_string())),
+                )
+            },
         ])
     }
 

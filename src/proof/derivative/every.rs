@@ -14,7 +14,6 @@ use crate::analysis::exact::Value;
 use crate::analysis::regular::mask::Point;
 use crate::numbers::{Angle, EnclosedWorld, Field, Interval, Trouble, World};
 use crate::proof::course::{self, Range as Parameters};
-use crate::proof::jacobian::ControlNet;
 use crate::proof::net::{Function, Net, Pair};
 use crate::proof::outcome::{Outcome, Valences};
 use crate::proof::positive::{Interval as Closed, is_positive_quotient};
