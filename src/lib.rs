@@ -18,9 +18,10 @@
 //!
 //! ```
 //! use eigenring::analysis::Analyzer;
+//! use eigenring::proof::c1::Proofs;
 //! use eigenring::refine;
 //! use eigenring::scheme::Scheme;
-//! use eigenring::verdicts::verdicts;
+//! use eigenring::verdicts::{Decision, verdicts};
 //!
 //! let text = r#"
 //!     name  = "Loop"
@@ -50,9 +51,10 @@
 //! let sum: f64 = mask.weights(&analysis.local).iter().map(|(_, weight)| weight).sum();
 //! assert!((sum - 1.0).abs() < 1e-15);
 //!
-//! for verdict in verdicts(&analysis, &sums) {
-//!     assert!(!verdict.why.is_empty());                   // proved, refuted or undecided, and why
-//! }
+//! let proofs = Proofs::of(&analyzer);                     // characteristic maps of every valence, proved regular and injective
+//! let found = verdicts(&analysis, &sums, &proofs.at(5, analysis.exact.as_ref().ok()));
+//! let c1 = found.iter().find(|verdict| verdict.claim == "C1").ok_or("no verdict")?;
+//! assert_eq!(c1.verdict, Decision::Proved);               // or refuted, or undecided: `why` tells
 //!
 //! // the same scheme on a mesh: a step, and the limit of its vertices
 //! use eigenring::analysis::limit::Limits;

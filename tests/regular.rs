@@ -7,6 +7,7 @@ use eigenring::analysis::regular::box_spline::BoxSpline;
 use eigenring::analysis::regular::mask::{Dilation, Mask, Point, Sequence};
 use eigenring::analysis::regular::{Regular, Smoothness};
 use eigenring::numbers::{Field, Free};
+use eigenring::proof::c1::Proofs;
 use eigenring::refine::{Refinement, RegularStencils, lattice_of};
 use eigenring::report::{Study, csv, json, latex, markdown};
 use eigenring::scheme::{Scheme, catalogue};
@@ -405,8 +406,10 @@ fn verdicts_and_reports_tell_the_regular_part() {
         (parse(LINEAR), Decision::Refuted),
         (parse(&BUTTERFLY.replace("1/16", "0.13")), Decision::Undecided),
     ] {
-        let analysis = Analyzer::new(&scheme).unwrap().at(5).unwrap();
-        let found = verdicts(&analysis, &[]);
+        let analyzer = Analyzer::new(&scheme).unwrap();
+        let analysis = analyzer.at(5).unwrap();
+        let proofs = Proofs::of(&analyzer).at(5, analysis.exact.as_ref().ok());
+        let found = verdicts(&analysis, &[], &proofs);
         let own = found.iter().find(|verdict| verdict.claim == "regular part").unwrap();
         assert_eq!(own.verdict, expected, "{}", scheme.book.title);
     }

@@ -48,6 +48,15 @@ impl<F: Field> Quotient<F> {
         }
     }
 
+    /// The value at a number of a world that holds the coefficients.
+    ///
+    /// # Errors
+    /// At a pole, or when a limit of size is passed.
+    pub fn evaluate<G: Field>(&self, at: &G, image: impl Fn(&F) -> G) -> Result<G, Trouble> {
+        let value = |own: &Univariate<F>| own.mapped(|value| Ok(image(value)))?.evaluate(at);
+        value(&self.numerator)?.over(&value(&self.denominator)?)
+    }
+
     fn reduced(numerator: Univariate<F>, denominator: Univariate<F>) -> Result<Self, Trouble> {
         if numerator.degree().max(denominator.degree()) > Some(MAX_DEGREE) {
             return Err(Trouble::BeyondThisWorld("the function of the parameter has too large a degree"));

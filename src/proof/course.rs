@@ -5,6 +5,7 @@
 
 use super::net::{Course, Function};
 use super::positive::{Interval, is_positive, is_positive_quotient};
+use crate::analysis::exact::Value;
 use crate::analysis::exact::formulas::AllValences;
 use crate::numbers::polynomial::Polynomial;
 use crate::numbers::{C, Field, Free, Trouble, Univariate};
@@ -17,6 +18,21 @@ pub struct Range {
     pub course: Course,
     /// Every n >= 3 has its p in here.
     pub interval: Interval,
+}
+
+impl Range {
+    /// Whether an enclosed number may be the value of lambda at a valence; only lambda's is for sure.
+    pub fn may_be_lambda(&self, n: usize, value: &Value) -> bool {
+        let turn = Value::pi().times(&Value::rational(&(RBig::from(2) / RBig::from(n))));
+        let Ok(cosine) = turn.map(|turn| turn.cos()) else { return true };
+        let p = if self.course.c == Function::variable() { &cosine } else { value };
+        let meets = |own: &Function, other: &Value| {
+            own.evaluate(p, Value::rational).map_or(true, |own: Value| own.overlaps(other))
+        };
+        let (low, high) = p.lo_hi();
+        let inside = low <= self.interval.high && high >= self.interval.low;
+        inside && meets(&self.course.c, &cosine) && meets(&self.course.lambda, value)
+    }
 }
 
 fn part(above: i64, below: u32) -> RBig {

@@ -5,9 +5,12 @@
 //! values are rational functions of it ([`net`]), and so are the Bernstein coefficients of the Jacobian ([`jacobian`]); each is positive on the
 //! parameter's whole range ([`positive`]).
 
+pub mod c1;
 pub mod course;
 pub mod jacobian;
 pub mod map;
+pub mod maps;
 pub mod net;
 pub mod outcome;
 pub mod positive;
+pub mod spectrum;

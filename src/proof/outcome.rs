@@ -13,6 +13,16 @@ pub enum Valences {
     From(usize),
 }
 
+impl Valences {
+    /// Whether a valence is among them.
+    pub fn hold(self, n: usize) -> bool {
+        match self {
+            Valences::At(own) => n == own,
+            Valences::From(first) => n >= first,
+        }
+    }
+}
+
 impl fmt::Display for Valences {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -14,6 +14,7 @@ use crate::analysis::masks::Mask;
 use crate::analysis::spectrum::Eigenvalue;
 use crate::analysis::{Analysis, Analyzer};
 use crate::mesh::Label;
+use crate::proof::c1::Proofs;
 use crate::refine::{Obstacle, OrbitNames, Refinement};
 use crate::scheme::{RuleSum, Scheme, catalogue};
 use crate::verdicts::{ClaimCheck, Curvature, CurvatureClass, Verdict, bound, check_claims, curvature_of, verdicts};
@@ -349,10 +350,11 @@ impl Report {
         digits: usize,
     ) -> Result<Report, Obstacle> {
         let names = OrbitNames::of(&Refinement::<f64>::new(scheme, None), analyzer.lattice());
+        let proofs = Proofs::of(analyzer);
         let judged: Vec<(Analysis, Vec<Verdict>)> = analyses
             .into_iter()
             .map(|analysis| {
-                let found = verdicts(&analysis, sums);
+                let found = verdicts(&analysis, sums, &proofs.at(analysis.valence, analysis.exact.as_ref().ok()));
                 (analysis, found)
             })
             .collect();

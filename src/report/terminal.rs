@@ -2,7 +2,7 @@
 
 use super::model::{Report, ValenceReport};
 use super::tables::verdict_word;
-use crate::verdicts::{CurvatureClass, Outcome};
+use crate::verdicts::{CurvatureClass, Decision, Outcome};
 use std::fmt::Write;
 
 /// The most valences that the summary lists.
@@ -67,7 +67,12 @@ fn known(report: &Report) -> String {
         (0, 0, _) => "All else is approximate (f64)".to_string(),
         _ => format!("Eigenvalues are exact at {exact} valences, enclosed at {enclosed}, approximate (f64) at {rest}"),
     };
-    format!("{what}; the characteristic map is sampled:\n'seems so' and 'seems not' are evidence, not proof.\n")
+    let decided =
+        |v: &ValenceReport| v.verdicts.iter().any(|own| own.claim == "C1" && own.verdict != Decision::Undecided);
+    if report.valences.iter().all(decided) {
+        return format!("{what}. C1 is decided by proofs, for generic control points.\n");
+    }
+    format!("{what}; 'seems so' and 'seems not' are evidence, not proof.\n")
 }
 
 /// What holds for every n, in two lines.

@@ -16,6 +16,8 @@ pub use curve::{CurveFacts, check_curve_claims};
 use crate::analysis::Analysis;
 use crate::analysis::exact::{Arithmetic, ExactAnalysis, ExactEigenvalue};
 use crate::analysis::spectrum::{Eigenvalue, near};
+use crate::proof::c1::Found;
+use crate::proof::outcome::Outcome as ProofOutcome;
 use crate::scheme::RuleSum;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
@@ -69,17 +71,18 @@ const SAMPLED: &str = "sampled in f64: an enclosure of the Jacobian over the who
 /// How near 1 a ratio of approximate eigenvalues is called a tie.
 const TIE: f64 = 1e-9;
 
-/// Every condition at one valence. `sums` are what the check of the scheme file found.
-pub fn verdicts(analysis: &Analysis, sums: &[RuleSum]) -> Vec<Verdict> {
+/// Every condition at one valence. `sums` are what the check of the scheme file found, `proofs` what was
+/// proved there ([`crate::proof::c1::Proofs::at`]).
+pub fn verdicts(analysis: &Analysis, sums: &[RuleSum], proofs: &Found) -> Vec<Verdict> {
     let mut verdicts = vec![
         affine_invariance(sums),
         regular_part(analysis),
         simple_one(analysis),
         subdominant(analysis),
-        regular_map(analysis),
-        injective_map(analysis),
+        of_map(regular_map(analysis), &proofs.map),
+        of_map(injective_map(analysis), &proofs.map),
     ];
-    let c1 = c1(&verdicts);
+    let c1 = c1(&verdicts, proofs.against_c1.as_deref());
     let one_is_known = sums.iter().all(|sum| sum.identity);
     verdicts.extend([c1, slope_ratio(analysis), classical(analysis, 0), classical(analysis, 2), curvature(analysis)]);
     if !one_is_known && analysis.exact.as_ref().is_ok_and(|exact| exact.arithmetic == Arithmetic::Enclosed) {
@@ -288,6 +291,24 @@ fn subdominant_approximately(analysis: &Analysis, states: &str) -> Verdict {
     undecided("subdominant", states, digits(lambda.value.re), evidence, &why, &sources)
 }
 
+/// A condition on the characteristic map, decided where a proof was found for it. The proofs are about the eigenvalue that the exact
+/// spectrum calls lambda, so that without it there is no map.
+fn of_map(verdict: Verdict, map: &ProofOutcome<String>) -> Verdict {
+    match map {
+        ProofOutcome::Proved(how) => {
+            Verdict { verdict: Decision::Proved, evidence: Evidence::For, why: vec![how.clone()], ..verdict }
+        }
+        ProofOutcome::Refuted { witness } => {
+            Verdict { verdict: Decision::Refuted, evidence: Evidence::Against, why: vec![witness.clone()], ..verdict }
+        }
+        ProofOutcome::Undecided { at } => {
+            let mut verdict = verdict;
+            verdict.why.push(format!("a proof was tried: {at}"));
+            verdict
+        }
+    }
+}
+
 fn regular_map(analysis: &Analysis) -> Verdict {
     let states = "the characteristic map is regular: its Jacobian is positive on the closed ring";
     let sources = ["reif-1995", "peters-reif-2008"];
@@ -329,25 +350,41 @@ fn no_map(analysis: &Analysis) -> String {
     }
 }
 
-/// C1 for generic control points, from the conditions before it.
-fn c1(conditions: &[Verdict]) -> Verdict {
+/// C1 for generic control points: proved where every condition is, refuted where something excludes it.
+fn c1(conditions: &[Verdict], against: Option<&str>) -> Verdict {
     let states = "limit surfaces are C1 at the extraordinary point, for generic control points";
-    let against = conditions.iter().find(|verdict| verdict.evidence == Evidence::Against);
-    let unclear = conditions.iter().find(|verdict| verdict.evidence == Evidence::None);
-    let (evidence, why) = match (against, unclear) {
-        (Some(verdict), _) if verdict.verdict == Decision::Refuted => {
-            (Evidence::Against, format!("the condition '{}' is refuted", verdict.claim))
-        }
-        (Some(verdict), _) => (Evidence::Against, format!("the condition '{}' seems to fail", verdict.claim)),
-        (None, Some(verdict)) => (Evidence::None, format!("the condition '{}' is not seen either way", verdict.claim)),
-        _ => {
-            let proved = |verdict: &&Verdict| verdict.verdict == Decision::Proved;
-            let names: Vec<&str> = conditions.iter().filter(proved).map(|verdict| verdict.claim.as_str()).collect();
-            (Evidence::For, format!("proved: {}; the others hold as far as floating numbers see", names.join(", ")))
-        }
+    let undecided = |evidence, why: &[String]| {
+        undecided("C1", states, "-".to_string(), evidence, why, &["reif-1995", "peters-reif-2008"])
     };
-    let why = [why, "the characteristic map has not been proved regular and injective".to_string()];
-    undecided("C1", states, "-".to_string(), evidence, &why, &["reif-1995", "peters-reif-2008"])
+    if let Some(why) = against {
+        return Verdict { verdict: Decision::Refuted, ..undecided(Evidence::Against, &[why.to_string()]) };
+    }
+    if let Some(why) = folded(conditions) {
+        return Verdict { verdict: Decision::Refuted, ..undecided(Evidence::Against, &[why]) };
+    }
+    let open: Vec<&Verdict> = conditions.iter().filter(|own| own.verdict != Decision::Proved).collect();
+    if open.is_empty() {
+        let why = "every condition of Reif's theorem is proved: the six before".to_string();
+        return Verdict { verdict: Decision::Proved, ..undecided(Evidence::For, &[why]) };
+    }
+    if let Some(own) = conditions.iter().find(|own| own.evidence == Evidence::Against) {
+        let how = if own.verdict == Decision::Refuted { "is refuted" } else { "seems to fail" };
+        return undecided(Evidence::Against, &[format!("the condition '{}' {how}", own.claim)]);
+    }
+    if let Some(own) = conditions.iter().find(|own| own.evidence == Evidence::None) {
+        return undecided(Evidence::None, &[format!("the condition '{}' is not seen either way", own.claim)]);
+    }
+    let names: Vec<String> = open.iter().map(|own| format!("'{}'", own.claim)).collect();
+    undecided(Evidence::For, &[format!("not proved: {}; they hold as far as floating numbers see", names.join(", "))])
+}
+
+/// A map that certainly is not regular and injective excludes C1, if it is that of the eigenvalue that leads after 1.
+fn folded(conditions: &[Verdict]) -> Option<String> {
+    let own = |claim: &str| conditions.iter().find(|own| own.claim == claim);
+    let leads =
+        ["1 dominates", "subdominant"].iter().all(|claim| own(claim).map(|own| own.verdict) == Some(Decision::Proved));
+    let map = conditions.iter().find(|own| own.claim.ends_with(" map") && own.verdict == Decision::Refuted)?;
+    leads.then(|| format!("lambda leads, and the condition '{}' is refuted: {}", map.claim, map.why.join("; ")))
 }
 
 /// Doo and Sabin's test for slope: every frequency's largest eigenvalue lies strictly below that of frequency 1.
