@@ -1,0 +1,111 @@
+//! At which valences is the order of the eigenvalues proved, or C1 refuted by it?
+//!
+//! Every n >= 3 is one of: a single one, decided by the exact analysis, or one of all from some n on, decided at once.
+
+use super::range;
+use super::refutation::{against_c1, is_effective};
+use super::tail::{self, TailProof};
+use crate::analysis::Analyzer;
+use crate::analysis::exact::ExactAnalysis;
+use crate::proof::outcome::{Outcome, Valences};
+use std::cmp::Ordering;
+
+/// How the order was proved.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Order {
+    /// By the exact analysis of one valence.
+    Single,
+    /// At once.
+    AtOnce(TailProof),
+}
+
+/// What is known of the order at every n >= 3. Refuted is C1, for generic data, where the order excludes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Orders {
+    /// Single valences first; then all from one on. The first entry that has a valence is about it.
+    pub parts: Vec<(Valences, Outcome<Order>)>,
+}
+
+impl Orders {
+    /// What is known at a valence.
+    pub fn at(&self, n: usize) -> Outcome<&Order> {
+        match self.parts.iter().find(|(valences, _)| valences.hold(n)) {
+            Some((_, Outcome::Proved(order))) => Outcome::Proved(order),
+            Some((_, Outcome::Refuted { witness })) => Outcome::Refuted { witness: witness.clone() },
+            Some((_, Outcome::Undecided { at })) => Outcome::stuck(at.clone()),
+            None => Outcome::stuck(format!("n = {n} is not looked at")),
+        }
+    }
+
+    /// Whether the order is proved for every n >= 3.
+    pub fn hold_everywhere(&self) -> bool {
+        self.parts.iter().all(|(_, outcome)| matches!(outcome, Outcome::Proved(_)))
+    }
+
+    /// The proof for all valences from one on, if there is one.
+    pub fn tail(&self) -> Option<&TailProof> {
+        self.parts.iter().find_map(|(_, outcome)| match outcome {
+            Outcome::Proved(Order::AtOnce(tail)) => Some(tail),
+            _ => None,
+        })
+    }
+}
+
+/// Decides what can be decided. Where nothing is known for all valences from one on, no single ones are looked at.
+pub fn prove(analyzer: &Analyzer) -> Orders {
+    let forms = match analyzer.forms() {
+        Ok(forms) => forms,
+        Err(why) => return Orders { parts: vec![(Valences::From(3), Outcome::stuck(why))] },
+    };
+    let stuck = match tail::prove(forms) {
+        Ok(Ok(tail)) => return with_single(analyzer, tail.from, tail.except, Outcome::Proved(Order::AtOnce(tail))),
+        Ok(Err(why)) => why,
+        Err(trouble) => trouble.to_string(),
+    };
+    match range::against_c1(forms) {
+        Ok(Some((from, witness))) if is_effective(analyzer) => {
+            with_single(analyzer, from, forms.except.filter(|n| *n >= from), Outcome::Refuted { witness })
+        }
+        _ => Orders { parts: vec![(Valences::From(3), Outcome::stuck(stuck))] },
+    }
+}
+
+/// The single valences before all others, those and an excepted one by the exact analysis.
+fn with_single(analyzer: &Analyzer, from: usize, except: Option<usize>, tail: Outcome<Order>) -> Orders {
+    let single = (3..from).chain(except);
+    let mut parts: Vec<(Valences, Outcome<Order>)> = single.map(|n| (Valences::At(n), at(analyzer, n))).collect();
+    parts.push((Valences::From(from), tail));
+    Orders { parts }
+}
+
+/// What the exact analysis of a valence says.
+fn at(analyzer: &Analyzer, n: usize) -> Outcome<Order> {
+    let exact = match analyzer.at(n).map(|analysis| analysis.exact) {
+        Ok(Ok(exact)) => exact,
+        Ok(Err(why)) => return Outcome::stuck(why),
+        Err(obstacle) => return Outcome::stuck(obstacle.to_string()),
+    };
+    match (against_c1(&exact, n, is_effective(analyzer)), misses(&exact)) {
+        (Some(witness), _) => Outcome::Refuted { witness },
+        (None, None) => Outcome::Proved(Order::Single),
+        (None, Some(why)) => Outcome::stuck(why),
+    }
+}
+
+/// What the order at a valence misses, if anything.
+pub fn misses(exact: &ExactAnalysis) -> Option<&'static str> {
+    let leads = |first: usize, mut others: Box<dyn Iterator<Item = usize> + '_>| {
+        others.all(|other| exact.compare_moduli(first, other) == Some(Ordering::Greater))
+    };
+    let Some(one) = exact.one.filter(|one| exact.eigenvalues[*one].algebraic == Some(1)) else {
+        return Some("1 is not seen to be simple");
+    };
+    if !leads(one, Box::new(exact.after_one().map(|(index, _)| index))) {
+        return Some("1 is not seen to be larger than all others");
+    }
+    let Some(lambda) = exact.lambda else {
+        return Some("no real, positive, simple eigenvalue of frequency 1 is seen to lead after 1");
+    };
+    let others = exact.after_one().map(|(index, _)| index).filter(|index| *index != lambda);
+    (!leads(lambda, Box::new(others))).then_some("lambda is not seen to be larger than all others after 1")
+}
