@@ -156,7 +156,8 @@ fn a_wrong_digit_in_a_scheme_file_is_noticed() {
 fn a_wrong_digit_in_a_boundary_file_is_noticed() {
     for listed in catalogue::BOUNDARIES {
         let mutants = mutants(listed);
-        assert!(mutants.len() >= 5, "{}", listed.id);
+        // a file may tell a flatness alone: a free choice, no weights
+        assert!(mutants.len() >= 5 || listed.text.contains("\n[flatness]"), "{}", listed.id);
         for (name, text) in mutants {
             let sound = |(mesh, regular): (&str, usize)| {
                 RuleBook::parse_boundary(listed.id, &text, mesh)

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use dashu_ratio::RBig;
-use eigenring::analysis::smoothness::range::{Finding, continuity_between};
+use eigenring::analysis::smoothness::range::{Finding, Piece, continuity_between};
 use eigenring::analysis::smoothness::stability::Stability;
 use eigenring::analysis::smoothness::symbol::differences;
 use eigenring::analysis::smoothness::transition::transitions;
@@ -245,19 +245,28 @@ fn the_four_point_scheme_is_c1_up_to_its_limit() {
         };
         pieces.iter().any(|piece| holds(&piece.finding) && w(&piece.from) <= *w0 && *w0 <= w(&piece.to))
     };
-    // within about a hundredth of both ends of the range
-    assert!(proved > ratio(17, 100), "{proved}");
+    // one stretch without a gap, at 1/16 neither, where the mask has two factors more
+    let is_proved = |piece: &&Piece| matches!(piece.finding, Finding::Proved { .. });
+    let stretch: Vec<&Piece> = pieces.iter().skip_while(|piece| !is_proved(piece)).collect();
+    let stretch: Vec<&Piece> = stretch.into_iter().take_while(is_proved).collect();
+    assert_eq!(stretch.len(), pieces.iter().filter(is_proved).count());
+    // up to four widths from either end of the range
+    let near = ratio(4, 256) * (&high - &low);
+    assert!(w(&stretch[0].from) < near && beyond(&(w(&stretch[stretch.len() - 1].to) + &near)));
+    assert!(proved > ratio(18, 100), "{proved}");
     assert!(found(true, &ratio(-1, 100)) && found(true, &ratio(1, 5)) && found(false, &ratio(1, 16)));
 }
 
-/// Twelve points: exponents of many sum rules need a good simplex method.
+/// Twelve and sixteen points: exponents of many sum rules need a good simplex method.
 #[test]
 fn masks_of_many_points_get_a_narrow_interval() {
-    let found = of("deslauriers-dubuc", &[("N", "6")]);
-    let (lower, upper) = (found.lower.unwrap(), found.upper.unwrap());
-    assert!(upper - lower <= 0.01, "[{lower}, {upper}] {:?}", found.why);
-    assert_eq!((found.order, found.continuity, found.refuted), (12, Some(4), Some(5)));
-    assert!(found.radius.witness.shows(&found.kernel, &found.radius.upper));
+    for (n, order, continuity) in [("6", 12, 4), ("8", 16, 5)] {
+        let found = of("deslauriers-dubuc", &[("N", n)]);
+        let (lower, upper) = (found.lower.unwrap(), found.upper.unwrap());
+        assert!(upper - lower <= 0.01, "[{lower}, {upper}] {:?}", found.why);
+        assert_eq!((found.order, found.continuity, found.refuted), (order, Some(continuity), Some(continuity + 1)));
+        assert!(found.radius.witness.shows(&found.kernel, &found.radius.upper));
+    }
 }
 
 /// The four-point scheme is C1 exactly on (0, w*), 32 w*^3 + 4 w* = 1 (Hechler, Moessner and Reif 2009): proved inside, refuted outside, and
@@ -286,6 +295,8 @@ fn ranges_of_the_four_point_scheme_close_in_on_its_ends() {
         }
     }
     assert!(proved > 0.185 && refuted > 0.18, "{found:?}");
+    let verdicts: Vec<&str> = found.pieces.iter().map(|piece| piece.verdict).collect();
+    assert_eq!(verdicts, ["refuted", "undecided", "proved", "undecided", "refuted"]);
     let splines = catalogue::curve("bezier").unwrap().unwrap();
     assert!(range(&splines, &Interval::parse("t=1/4..1/2").unwrap(), 1).is_err());
 }

@@ -5,10 +5,11 @@
 //! mesh is like the canonical patch as far as the rules of its points look: where rules are compact and the mask lies on the faces around the vertex,
 //! these alone must be regular; else so must all vertices around it, out to the reach of the neighbourhood. Where
 //! they are not, and while creases that end are there, the mesh is refined first, and vertices are followed: to vertices, or to faces. So is a mesh
-//! with boundaries or creases where rules near these are told from their special vertices: after a step these are no neighbours.
+//! with boundaries or creases where rules near these are told from their special vertices, or points around these are moved: after a step
+//! these are no neighbours.
 
 use super::places::{LabelledMask, Place, PlaceMasks, Places, point_at};
-use crate::mesh::{Centre, Connectivity, Cycle, FanKind, HalfEdgeMesh, Lattice, Tagged};
+use crate::mesh::{Centre, Connectivity, Cycle, HalfEdgeMesh, Lattice, Tagged, sides};
 use crate::refine::{Level, NotRefinable, Obstacle, Refiner, Route, cycle_of, lattice_of};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -115,7 +116,10 @@ impl<'a> Limits<'a> {
         let sizes = usize::from(!dual && level.mesh.faces().same_size() != Some(self.lattice.face_corners() as u32));
         let apart = if self.near || (!dual && self.all_apart(level)) { 0 } else { self.steps_apart };
         let special = self.refiner.tells_from_ends() && !(level.tags.is_empty() && level.mesh.is_closed());
-        ending.max(sizes).max(usize::from(special && self.near)).saturating_add(apart + usize::from(dual))
+        // points on the faces of two vertices that are moved must not be the same
+        let flat = usize::from(self.refiner.moves_points(&level.mesh, &level.tags));
+        let first = ending.max(sizes).max(usize::from(special && self.near)).max(flat);
+        first.saturating_add(apart + usize::from(dual))
     }
 
     /// Whether every vertex, and whatever is special, is alone as far as the masks reach.
@@ -332,30 +336,14 @@ fn sectors(at: &Level<f64>, vertex: u32) -> Vec<Sector> {
         let spokes = at.mesh.around_vertex(start);
         return vec![Sector { place: Place::Inside(spokes.len()), spokes }];
     }
+    let fans = sides(&tagged, start);
+    if !fans.is_empty() {
+        return fans.into_iter().map(|(kind, spokes)| Sector { place: Place::Fan(kind), spokes }).collect();
+    }
     let sharp = tagged.sharp_spokes(start);
-    let corner = tagged.is_corner(start) || sharp.len() > 2;
-    let Some(first) = sharp.first() else {
-        let spokes = at.mesh.around_vertex(start);
-        let place = if corner { Place::Cone } else { Place::Inside(spokes.len()) };
-        return vec![Sector { place, spokes }];
-    };
-    let spokes = tagged.around_vertex(*first);
-    if sharp.len() == 1 {
-        let faces = spokes.len();
-        return vec![Sector { place: if corner { Place::Cone } else { Place::Fan(FanKind::Dart { faces }) }, spokes }];
-    }
-    let mut sides = Vec::new();
-    let mut from = 0;
-    for to in (1..=spokes.len()).filter(|at| *at == spokes.len() || tagged.is_sharp(spokes[*at])) {
-        let faces = to - from;
-        let side: Vec<u32> = (from..=to).map(|at| spokes[at % spokes.len()]).collect();
-        if tagged.has_face(side[0]) {
-            let kind = if corner { FanKind::Corner { faces } } else { FanKind::Crease { faces } };
-            sides.push(Sector { place: Place::Fan(kind), spokes: side });
-        }
-        from = to;
-    }
-    sides
+    let spokes = tagged.around_vertex(sharp.first().copied().unwrap_or(start));
+    let place = if tagged.is_corner(start) { Place::Cone } else { Place::Inside(spokes.len()) };
+    vec![Sector { place, spokes }]
 }
 
 /// The vertices within some rings of faces around one.

@@ -12,11 +12,11 @@ use eigenring::scheme::{RuleBook, Scheme, catalogue};
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Lists the schemes of the catalogue, or prints the file of one.
+/// Lists the schemes of the catalogue and its boundary files, or prints the file of one.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  eigenring schemes\n  eigenring schemes loop > my-scheme.toml")]
 pub(crate) struct Schemes {
-    /// A scheme of the catalogue, whose file is printed
+    /// A scheme or a boundary file of the catalogue, which is printed
     name: Option<String>,
 }
 
@@ -24,7 +24,7 @@ impl Schemes {
     pub(crate) fn run(self) -> Result<(), Failure> {
         match self.name {
             None => print(&listing()?),
-            Some(name) => match catalogue::all().find(|listed| listed.id == name) {
+            Some(name) => match catalogue::all().chain(catalogue::BOUNDARIES).find(|listed| listed.id == name) {
                 Some(listed) => print(listed.text),
                 None => Err(failure(format!("there is no scheme `{name}`; `eigenring schemes` lists them"))),
             },
@@ -79,7 +79,7 @@ fn line(scheme: &Scheme) -> String {
     text
 }
 
-/// The schemes for curves and grids.
+/// The schemes for curves and grids, and the boundary files.
 fn others() -> Result<String, Failure> {
     let set = |book: &RuleBook| {
         let names: Vec<&str> = book.parameters.iter().map(|p| p.name.as_str()).collect();
@@ -101,6 +101,12 @@ fn others() -> Result<String, Failure> {
         let Some(scheme) = catalogue::grid(listed.id).transpose()? else { continue };
         let [a, b] = &scheme.factors;
         let _ = writeln!(text, "  {:<26} {} ({} x {})", scheme.id, scheme.book.title, a.scheme, b.scheme);
+    }
+    text.push_str("Boundary rules, for --boundary-rules\n");
+    for listed in catalogue::BOUNDARIES {
+        let Some(book) = catalogue::boundary(listed.id, "triangles").transpose()? else { continue };
+        let like = book.like.as_ref().map_or(String::new(), |like| format!("; like {}", like.title));
+        let _ = writeln!(text, "  {:<30} {}{like}{}", listed.id, book.title, set(&book));
     }
     Ok(text)
 }

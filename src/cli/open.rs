@@ -1,9 +1,13 @@
 //! Which scheme does a name or a path mean?
 
+use super::analyze::explain;
+use super::refine::refused;
 use super::{Failure, failure};
 use clap::Args;
+use eigenring::analysis::boundary::flatness;
 use eigenring::fault::nearest;
-use eigenring::refine;
+use eigenring::mesh::FanKind;
+use eigenring::refine::{self, Refiner};
 use eigenring::report::boundary::Variant;
 use eigenring::scheme::{AnyScheme, MAX_FILE_BYTES, RuleBook, RuleSum, Scheme, catalogue};
 use std::fs::File;
@@ -57,7 +61,7 @@ pub(crate) fn open_any(
             return Err(failure(format!("`{parameter}` is set twice")));
         }
         set.push(parameter);
-        let knows = |book: &RuleBook| book.parameters.iter().any(|own| own.name == parameter);
+        let knows = |book: &RuleBook| book.has_parameter(parameter);
         let mut books: Vec<&mut RuleBook> =
             variants.iter_mut().map(|variant| &mut variant.book).filter(|book| knows(book)).collect();
         if knows(scheme.book()) || books.is_empty() {
@@ -111,6 +115,18 @@ pub(crate) fn only(variants: Vec<Variant>) -> Result<Option<RuleBook>, Failure> 
         (book, None) => Ok(book),
         _ => Err(failure("a mesh is refined by one boundary file: give one name with --boundary-rules")),
     }
+}
+
+/// A scheme with boundary rules, ready to refine meshes with these kinds of vertices on boundaries and creases.
+pub(crate) fn refiner<'a>(
+    scheme: &'a Scheme,
+    book: Option<&'a RuleBook>,
+    kinds: impl IntoIterator<Item = FanKind>,
+) -> Result<Refiner<'a>, Failure> {
+    let refiner = Refiner::new(scheme, book).map_err(|wrong| refused(scheme, wrong))?;
+    let Some(book) = book else { return Ok(refiner) };
+    let flatness = flatness::of(scheme, book, kinds).map_err(|obstacle| explain(scheme, obstacle))?;
+    Ok(refiner.with_flatness(flatness))
 }
 
 /// Opens a scheme and checks it at the valences asked for.

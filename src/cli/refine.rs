@@ -2,7 +2,7 @@
 
 use super::analyze::explain;
 use super::mesh_file::{Loaded, Reading, check_destination, creases_of, save, statistics, statistics_of_faces};
-use super::open::{BoundaryRules, only, open_any};
+use super::open::{BoundaryRules, only, open_any, refiner};
 use super::{Failure, failure, memory, say};
 use clap::{Args, ValueEnum};
 use eigenring::analysis::boundary::MAX_FACES;
@@ -10,7 +10,7 @@ use eigenring::analysis::limit::{LimitSurface, Limits, NoLimit};
 use eigenring::analysis::local::MAX_VALENCE;
 use eigenring::mesh::io::{Coordinates, Output};
 use eigenring::mesh::{Connectivity, HalfEdgeMesh, Tags};
-use eigenring::refine::{Coordinate, Counts, Level, NotRefinable, Obstacle, Refined, Refiner, Route};
+use eigenring::refine::{Coordinate, Counts, Level, NotRefinable, Obstacle, Refined, Refiner, Route, fan_kinds};
 use eigenring::scheme::{AnyScheme, RuleBook, Scheme};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeSet;
@@ -136,7 +136,7 @@ impl Job {
     where
         for<'a> &'a [[T; 3]]: Into<Coordinates<'a>>,
     {
-        let refiner = Refiner::new(scheme, book).map_err(|wrong| refused(scheme, wrong))?;
+        let refiner = refiner(scheme, book, fan_kinds(&loaded.mesh, &loaded.tags))?;
         refiner.fits(&loaded.mesh, &loaded.tags).map_err(|wrong| refused(scheme, wrong))?;
         check_size::<T>(&refiner, &loaded.mesh, levels, to_limit, None)?;
         let ending = loaded.tags.most_steps().ceil() as usize;

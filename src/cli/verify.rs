@@ -2,7 +2,7 @@
 
 use super::analyze::explain;
 use super::mesh_file::Reading;
-use super::open::{BoundaryRules, only, open_with_rules};
+use super::open::{BoundaryRules, only, open_with_rules, refiner};
 use super::refine::{BEFORE_LIMIT, check_rules, check_size, no_limit, refused, valences_of};
 use super::valences::{Faces, Valences};
 use super::{Failure, failure, print};
@@ -11,7 +11,7 @@ use eigenring::analysis::boundary::MAX_FACES;
 use eigenring::analysis::places::Place;
 use eigenring::analysis::verify::{Check, Levels, NORMAL, POSITION, Verifier};
 use eigenring::mesh::{Connectivity, FanKind, HalfEdgeMesh, PolygonSoup, Tags, shapes};
-use eigenring::refine::{Level, Obstacle, Refiner};
+use eigenring::refine::{Level, Obstacle, Refiner, fan_kinds};
 use eigenring::scheme::Scheme;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeSet;
@@ -86,10 +86,12 @@ impl Verify {
         if let Some((_, level)) = meshes.first() {
             check_rules(&scheme, book.as_ref(), &level.mesh)?;
         }
-        let refiner = Refiner::new(&scheme, book.as_ref()).map_err(|wrong| refused(&scheme, wrong))?;
-        let verifier = Verifier::new(&refiner).map_err(|obstacle| explain(&scheme, obstacle))?;
+        let plain = Refiner::new(&scheme, book.as_ref()).map_err(|wrong| refused(&scheme, wrong))?;
         let own = meshes.first().map(|(_, level)| boundary_faces_of(&level.mesh));
-        let places = self.places(&refiner, &valences, own);
+        let places = self.places(&plain, &valences, own);
+        let meshes = if self.mesh.is_some() { meshes } else { shapes_for(&plain)? };
+        let refiner = refiner(&scheme, book.as_ref(), kinds(&scheme, &places, &meshes))?;
+        let verifier = Verifier::new(&refiner).map_err(|obstacle| explain(&scheme, obstacle))?;
         let bar = progress(places.len());
         let mut checks = Vec::new();
         for place in places {
@@ -136,9 +138,8 @@ impl Verify {
         scheme: &Scheme,
         refiner: &Refiner,
         verifier: &Verifier,
-        own: Vec<(String, Level<f64>)>,
+        meshes: Vec<(String, Level<f64>)>,
     ) -> Result<Vec<OnMesh>, Failure> {
-        let meshes = if self.mesh.is_some() { own } else { shapes_for(refiner)? };
         let mut found = Vec::new();
         for (name, level) in meshes {
             let steps = usize::from(self.levels);
@@ -150,6 +151,14 @@ impl Verify {
         }
         Ok(found)
     }
+}
+
+/// The kinds of vertices on boundaries and creases of places, of meshes, and at the rims of the discs around places.
+fn kinds(scheme: &Scheme, places: &[Place], meshes: &[(String, Level<f64>)]) -> BTreeSet<FanKind> {
+    let of_place = |place: &Place| if let Place::Fan(kind) = place { Some(*kind) } else { None };
+    let of_mesh = meshes.iter().flat_map(|(_, level)| fan_kinds(&level.mesh, &level.tags));
+    let rim = (1..scheme.regular_valence()).flat_map(|faces| [FanKind::Crease { faces }, FanKind::Corner { faces }]);
+    places.iter().filter_map(of_place).chain(of_mesh).chain(rim).collect()
 }
 
 /// Why a place has no masks, with the place where that is it.

@@ -8,6 +8,7 @@ mod compact;
 pub mod curve;
 mod ends;
 mod exact_weights;
+mod flatten;
 mod gather;
 pub mod grid;
 mod growth;
@@ -20,6 +21,7 @@ mod steps;
 mod symmetry;
 
 pub use exact_weights::{Count, EnclosedWeights, ExactWeights};
+pub use flatten::{Flatness, Moves, fan_kinds};
 pub use gather::{Coordinate, Point};
 pub use growth::Counts;
 pub use names::OrbitNames;

@@ -1,15 +1,17 @@
 //! How is a mesh refined by a scheme whose step has several passes?
 //!
 //! Pass after pass. Each is refined in its own way; a [`Chain`] knows the meshes of some steps without any position, and how the points of the
-//! last are made of those of the first.
+//! last are made of those of the first. Where a boundary file tells a flatness, points are moved after the last pass ([`super::flatten`]).
 
 use super::gather::Coordinate;
 use super::pass::{add_scaled, collected};
 use super::steps::{PassRefiner, standing_at};
-use super::{Buffers, Counts, Level, NotRefinable, Obstacle, Pass, Refined, Route, Row};
+use super::{Buffers, Counts, Flatness, Level, NotRefinable, Obstacle, Pass, Refined, Route, Row};
 use crate::mesh::{Centre, HalfEdgeMesh, Lattice, Numbering, Split, Tags};
 use crate::scheme::{RuleBook, Scheme};
 use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// A scheme with its boundary rules, ready to refine meshes.
 #[derive(Clone, Debug)]
@@ -19,6 +21,8 @@ pub struct Refiner<'a> {
     passes: Vec<PassRefiner<'a>>,
     lattice: Lattice,
     steps: usize,
+    /// How points around special vertices are moved after a step, where the boundary file says that they are.
+    flatness: Option<Arc<Flatness>>,
 }
 
 impl<'a> Refiner<'a> {
@@ -30,7 +34,25 @@ impl<'a> Refiner<'a> {
         let told = scheme.passes().into_iter();
         let passes = told.map(|told| PassRefiner::new(scheme, told, boundary)).collect::<Result<_, _>>()?;
         let cycle = super::cycle_of(scheme)?;
-        Ok(Refiner { scheme, boundary, passes, lattice: cycle.lattice(), steps: cycle.steps })
+        let flatness = boundary.filter(|book| book.tells_flatness()).map(|_| Arc::default());
+        Ok(Refiner { scheme, boundary, passes, lattice: cycle.lattice(), steps: cycle.steps, flatness })
+    }
+
+    /// The same with the flatness that the boundary file tells, for the kinds of vertices that meshes will have
+    /// ([`crate::analysis::boundary::flatness::of`]); where the file tells none, nothing is moved.
+    #[must_use]
+    pub fn with_flatness(self, flatness: Flatness) -> Refiner<'a> {
+        Refiner { flatness: self.flatness.map(|_| Arc::new(flatness)), ..self }
+    }
+
+    /// Whether points of a mesh may be moved after a step.
+    pub fn moves_points(&self, mesh: &HalfEdgeMesh, tags: &Tags) -> bool {
+        self.flatness.is_some() && !(tags.is_empty() && mesh.is_closed())
+    }
+
+    /// How points of a mesh that a step has made are moved.
+    fn moved(&self, mesh: &HalfEdgeMesh, tags: &Tags) -> Result<BTreeMap<u32, Row<u32, f64>>, NotRefinable> {
+        self.flatness.as_ref().map_or(Ok(BTreeMap::new()), |flatness| flatness.rows(mesh, tags))
     }
 
     /// The scheme.
@@ -137,7 +159,17 @@ impl<'a> Refiner<'a> {
             }
             at = Cow::Owned(pass.step(&at, route)?);
         }
-        Ok(at.into_owned())
+        let mut made = at.into_owned();
+        if let Some(flatness) = &self.flatness {
+            flatness.apply(&mut made)?;
+        }
+        Ok(made)
+    }
+
+    /// A step whose mesh is needed to move points, but not afterwards.
+    fn moved_step<T: Coordinate>(&self, level: &Level<T>, route: Route) -> Result<Refined<T>, NotRefinable> {
+        let Level { mesh, positions, .. } = self.step(level, route)?;
+        Ok(Refined { faces: mesh.faces().clone(), positions })
     }
 
     /// The level before the last pass.
@@ -172,6 +204,9 @@ impl<'a> Refiner<'a> {
         route: Route,
         buffers: &mut Buffers<T>,
     ) -> Result<Refined<T>, NotRefinable> {
+        if self.moves_points(&level.mesh, &level.tags) {
+            return self.moved_step(level, route);
+        }
         let before = self.before_last(level, route)?;
         self.last_pass().last_step_in(&before, route, buffers)
     }
@@ -181,6 +216,9 @@ impl<'a> Refiner<'a> {
     /// # Errors
     /// As [`Refiner::step`].
     pub fn finish<T: Coordinate>(&self, level: Level<T>, route: Route) -> Result<Refined<T>, NotRefinable> {
+        if self.moves_points(&level.mesh, &level.tags) {
+            return self.moved_step(&level, route);
+        }
         if self.passes.len() == 1 {
             self.fits(&level.mesh, &level.tags)?;
             return self.last_pass().finish(level, route);
@@ -210,7 +248,7 @@ impl<'a> Refiner<'a> {
     /// When a split can't be applied, or the new mesh is too large.
     pub fn chain(&self, mesh: &HalfEdgeMesh, tags: &Tags, steps: usize) -> Result<Chain<'a>, NotRefinable> {
         let mut chain = Chain { links: Vec::new(), mesh: mesh.clone(), tags: tags.clone() };
-        for pass in self.passes.iter().cycle().take(self.passes.len() * steps) {
+        for (index, pass) in self.passes.iter().cycle().take(self.passes.len() * steps).enumerate() {
             let split = pass.split.at(&chain.tags);
             split.new_corners(&chain.mesh)?;
             let numbering = split.numbering(&chain.mesh, Numbering::default());
@@ -218,7 +256,9 @@ impl<'a> Refiner<'a> {
             let mesh = split.mesh(&chain.mesh, &numbering, faces)?;
             let tags = split.tags(&chain.mesh, &chain.tags, &mesh);
             let old = (std::mem::replace(&mut chain.mesh, mesh), std::mem::replace(&mut chain.tags, tags));
-            chain.links.push(Link { split, rules: pass.rules(), mesh: old.0, tags: old.1, numbering });
+            let last = (index + 1) % self.passes.len() == 0;
+            let moved = if last { self.moved(&chain.mesh, &chain.tags)? } else { BTreeMap::new() };
+            chain.links.push(Link { split, rules: pass.rules(), mesh: old.0, tags: old.1, numbering, moved });
         }
         Ok(chain)
     }
@@ -231,6 +271,8 @@ struct Link<'a> {
     mesh: HalfEdgeMesh,
     tags: Tags,
     numbering: Numbering,
+    /// The points of the next mesh that are moved once they are made.
+    moved: BTreeMap<u32, Row<u32, f64>>,
 }
 
 /// The meshes of some steps, without positions.
@@ -256,16 +298,11 @@ impl Chain<'_> {
                 // vertices of meshes between are nobody's
                 row.map_err(|o| if index == 0 { standing_at(&link.mesh, birth, o) } else { o.into() })
             };
-            row = match row.as_slice() {
-                [(only, 1.0)] => born(*only)?,
-                several => {
-                    let mut sum = Vec::new();
-                    for (point, weight) in several {
-                        add_scaled(&mut sum, &born(*point)?, weight).map_err(Obstacle::from)?;
-                    }
-                    collected(sum)?
-                }
-            };
+            if !link.moved.is_empty() {
+                let own = |point: u32| link.moved.get(&point).cloned().unwrap_or_else(|| vec![(point, 1.0)]);
+                row = composed(row, |point| Ok(own(point)))?;
+            }
+            row = composed(row, born)?;
         }
         Ok(row)
     }
@@ -283,4 +320,19 @@ impl Chain<'_> {
         let on_edges = matches!(link.split, Split::OneToFour | Split::OneToN) && stays;
         on_edges.then(|| link.mesh.vertices() as u32 + link.numbering.of_first(first_corner))
     }
+}
+
+/// A row of points each of which is a row itself.
+fn composed(
+    row: Row<u32, f64>,
+    of: impl Fn(u32) -> Result<Row<u32, f64>, NotRefinable>,
+) -> Result<Row<u32, f64>, NotRefinable> {
+    if let [(only, 1.0)] = row.as_slice() {
+        return of(*only);
+    }
+    let mut sum = Vec::new();
+    for (point, weight) in &row {
+        add_scaled(&mut sum, &of(*point)?, weight).map_err(Obstacle::from)?;
+    }
+    Ok(collected(sum)?)
 }

@@ -37,6 +37,9 @@ pub struct BoundaryReport {
     pub source: Vec<String>,
     /// The number of faces: k, at a dart n.
     pub faces: usize,
+    /// The s by which points around the vertex are moved towards its tangent plane after a step, where they are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flatness: Option<f64>,
     /// The size of the full neighbourhood.
     pub size: usize,
     /// Refinement steps in one application of the matrix.
@@ -164,6 +167,8 @@ pub fn boundary(
                 let exact = analyzer.exact(&analysis.local);
                 let mut own = report(variant, &analysis, exact, &names, digits);
                 let claims = check_boundary_claims(&variant.book, &analysis, &own.verdict);
+                let s = analyzer.flatness(kind).map_err(NoReport::of(scheme))?;
+                own.flatness = (s > 0.0).then_some(s);
                 own.claims = claims.map_err(|fault| NoReport::Faults(variant.book.faults(vec![fault])))?;
                 reports.push(own);
             }
@@ -192,6 +197,7 @@ fn report(
         variant: variant.name.clone(),
         source: variant.book.all_sources(),
         faces: analysis.fan.sectors() as usize,
+        flatness: None,
         size: analysis.local.size(),
         steps: 1,
         dilation: 2,
@@ -416,12 +422,14 @@ impl BoundaryReport {
     /// Whether there is a tangent plane, or why not.
     fn tangent_plane(&self) -> String {
         let slowly = |e: &ParityReport| e.jordan.is_some_and(|size| size > 1);
-        match (&self.tangent_eigenvalues, self.why_not.last()) {
+        let flat = self.flatness.map_or(String::new(), |s| format!("; flatness s = {s}"));
+        let plane = match (&self.tangent_eigenvalues, self.why_not.last()) {
             (Some(own), _) if own.iter().any(slowly) => "yes; a Jordan block makes normals converge slowly".to_string(),
             (Some(_), _) => "yes".to_string(),
             (None, Some(why)) => why.clone(),
             (None, None) => "-".to_string(),
-        }
+        };
+        plane + &flat
     }
 }
 
@@ -514,6 +522,9 @@ pub fn boundary_csv(reports: &[BoundaryReport]) -> String {
     for own in reports {
         let place = format!("{},{},{}", own.kind, own.faces, quoted(&own.variant));
         let _ = writeln!(text, "{place},size,,,,,,{},", own.size);
+        if let Some(s) = own.flatness {
+            let _ = writeln!(text, "{place},flatness,,,,,,{s},");
+        }
         for e in &own.eigenvalues {
             for _ in 0..e.algebraic {
                 let [re, im] = e.quantity.value;

@@ -68,11 +68,12 @@ pub const GRIDS: [Listed; 2] = listed! {
 };
 
 /// Every boundary file of the catalogue.
-pub const BOUNDARIES: [Listed; 4] = listed! {
+pub const BOUNDARIES: [Listed; 5] = listed! {
     "cubic" => "boundary/cubic.toml",
     "thirds" => "boundary/thirds.toml",
     "hoppe-1994" => "boundary/hoppe-1994.toml",
     "biermann-levin-zorin-2000" => "boundary/biermann-levin-zorin-2000.toml",
+    "biermann-levin-zorin-2000-flat" => "boundary/biermann-levin-zorin-2000-flat.toml",
 };
 
 /// The file of a scheme of the catalogue.

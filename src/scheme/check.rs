@@ -74,6 +74,7 @@ impl RuleBook {
             }
         }
         if faults.is_empty() {
+            faults.extend(self.flatness_faults(counts));
             faults.extend(self.check_elsewhere(counts, regular));
         }
         let mut seen = BTreeSet::new();

@@ -11,6 +11,7 @@ mod claim;
 mod classification;
 pub mod curve;
 mod evaluate;
+mod flatness;
 pub mod formula;
 pub mod grid;
 mod interval;
@@ -198,6 +199,8 @@ pub struct RuleBook {
     pub like: Option<Box<RuleBook>>,
     /// The number of corners of every face that a rule is told around, where it is the same for all.
     pub face_corners: Option<i64>,
+    /// The flatness s of a boundary file by kind of vertex: crease, corner, dart.
+    pub flatness: BTreeMap<String, Cases<Placed>>,
     /// What is said of a boundary file; what is said of a scheme are [`Scheme::claims`].
     pub claims: Vec<BoundaryClaim>,
 }

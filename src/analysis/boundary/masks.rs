@@ -187,7 +187,7 @@ impl Stages<'_> {
     }
 
     /// The points of the faces around the centre without itself, counter-clockwise.
-    fn rim(&self) -> Vec<Label> {
+    pub(super) fn rim(&self) -> Vec<Label> {
         let (spokes, sectors) = (self.ring(), self.fan().sectors() as usize);
         if self.fan().lattice() == Lattice::Triangles {
             return spokes;

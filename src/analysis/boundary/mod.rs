@@ -3,9 +3,11 @@
 //! The stages of the pipeline again, where there is no rotation but a mirror: the points that matter ([`influence`]), the
 //! local matrix ([`local`]), its even and odd part ([`halves`]), cores and eigenvalues as inside ([`super::cores`],
 //! [`super::spectrum`]), and masks ([`masks`]). Rules along the crease come from a boundary file. A boundary is a crease with
-//! nothing beyond it: each side of a crease inside a mesh is analysed as a boundary is.
+//! nothing beyond it: each side of a crease inside a mesh is analysed as a boundary is. Where a file tells a flatness, points are moved after each
+//! step ([`flatness`]), and all stages are those of the matrix with the moves.
 
 pub mod exact;
+pub mod flatness;
 pub mod halves;
 pub mod influence;
 mod leading;
@@ -83,11 +85,21 @@ impl<'a> BoundaryAnalyzer<'a> {
         self.book
     }
 
-    /// The local matrix at a kind of vertex.
+    /// The local matrix at a kind of vertex, with the flatness that the file tells.
     ///
     /// # Errors
-    /// When the number of faces is out of range, a weight has no value, a rule is missing or reaches over the boundary.
+    /// When the number of faces is out of range, a weight has no value, a rule is missing or reaches over the boundary; when there are no masks for the
+    /// flatness.
     pub fn local_matrix(&self, kind: FanKind) -> Result<FanMatrix, Obstacle> {
+        let plain = self.plain_matrix(kind)?;
+        Ok(match self.moves_over(&plain)? {
+            Some(moves) => plain.moved(&moves),
+            None => plain,
+        })
+    }
+
+    /// The local matrix without flatness.
+    fn plain_matrix(&self, kind: FanKind) -> Result<FanMatrix, Obstacle> {
         let (name, faces) = (kind.name(), kind.faces());
         if !(kind.least_faces()..=MAX_FACES).contains(&faces) {
             let least = kind.least_faces();
@@ -111,6 +123,10 @@ impl<'a> BoundaryAnalyzer<'a> {
     /// # Errors
     /// Why exact numbers can't hold it.
     pub fn exact(&self, local: &FanMatrix) -> Result<ExactHalves, Obstacle> {
+        if self.flatness(local.fan.kind())? > 0.0 {
+            let why = "flatness moves points by masks that are known approximately";
+            return Err(Obstacle::Limit(format!("{why}: exact numbers are not tried")));
+        }
         ExactHalves::of(&self.scheme().with_values(), self.book, local)
     }
 
@@ -130,5 +146,13 @@ impl<'a> BoundaryAnalyzer<'a> {
         stages.exact = exact.as_ref();
         let (limit_mask, tangent_masks) = (stages.limit_mask(), stages.tangent_masks());
         Ok(BoundaryAnalysis { fan: local.fan, local, halves, cores, spectrum, limit_mask, tangent_masks })
+    }
+
+    /// What masks are made of, for a local matrix.
+    fn with_stages<T>(&self, local: &FanMatrix, make: impl Fn(&Stages) -> T) -> Result<T, Obstacle> {
+        let halves = Halves::of(local.rows.clone(), &local.mirror);
+        let cores = Cores::of(&halves);
+        let spectrum = Spectrum::of(&halves, &cores)?;
+        Ok(make(&Stages { local, halves: &halves, cores: &cores, spectrum: &spectrum, exact: None }))
     }
 }

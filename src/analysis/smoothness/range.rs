@@ -161,13 +161,23 @@ impl Family {
         if rate >= target {
             return None;
         }
-        let directions: Vec<Vec<f64>> = found.iter().flat_map(|leader| leader.directions.clone()).collect();
-        let vertices = vertices_for(&middle, &directions, libm::sqrt(rate * target), MOST_VERTICES)?;
+        let plain: Vec<Vec<f64>> = found.iter().flat_map(|leader| leader.directions.clone()).collect();
+        // near a mask with more factors the orbits of these are nearly flat, and their polytope serves nowhere else
+        let thick = [plain.clone(), small_axes(middle.first()?.len())].concat();
         let bound = &self.target * (RBig::ONE - RBig::ONE / RBig::from(1_000_000_000));
-        let at = |t: &RBig| with_images(&self.matrices(t), &vertices, &bound, 1.0 - 1e-9);
-        let ends = Box::new([at(from)?, at(to)?]);
-        Some(Finding::Proved { bound, ends })
+        [plain, thick].iter().find_map(|directions| {
+            let vertices = vertices_for(&middle, directions, libm::sqrt(rate * target), MOST_VERTICES)?;
+            let at = |t: &RBig| with_images(&self.matrices(t), &vertices, &bound, 1.0 - 1e-9);
+            let ends = Box::new([at(from)?, at(to)?]);
+            Some(Finding::Proved { bound: bound.clone(), ends })
+        })
     }
+}
+
+/// Short vectors along all axes, which keep a polytope from being flat.
+fn small_axes(n: usize) -> Vec<Vec<f64>> {
+    let axis = |i: usize| (0..n).map(|j| if i == j { 1.0 / 4.0 } else { 0.0 }).collect();
+    (0..n).map(axis).collect()
 }
 
 /// Whether a polynomial is not positive on an interval, seen by its Bernstein coefficients there.

@@ -54,9 +54,10 @@ impl Basis {
         Some(Basis { inverse: inverted(&columns)?, vertices: chosen })
     }
 
-    /// The least sum, or the first found that is at most `enough`; `None` where rounding spoils the method.
+    /// The least sum, or the first found that is at most `enough`; where rounding lets sums drift again and again, the
+    /// least one seen. `None` where rounding spoils the method.
     pub(super) fn least(&self, vertices: &[Vec<f64>], y: &[f64], enough: f64) -> Option<Combination> {
-        let mut basis = self.clone();
+        let (mut basis, mut best) = (self.clone(), None::<Combination>);
         for _ in 0..RESTARTS {
             let mut now = Stage::new(&basis, y);
             let norm = now.descend(vertices, enough)?;
@@ -66,12 +67,14 @@ impl Basis {
             basis.inverse = inverted(&columns)?;
             let x: Vec<f64> = basis.inverse.iter().map(|row| dot(row, y)).collect();
             let anew: f64 = x.iter().map(|x| x.abs()).sum();
+            if best.as_ref().is_none_or(|best| anew < best.norm) {
+                best = Some(Combination { terms: basis.vertices.iter().copied().zip(x).collect(), norm: anew });
+            }
             if (anew - norm).abs() <= DRIFT {
-                let terms = basis.vertices.iter().copied().zip(x).collect();
-                return Some(Combination { terms, norm: anew });
+                break;
             }
         }
-        None
+        best
     }
 }
 

@@ -71,7 +71,12 @@ impl<'r, 'a> Zoom<'r, 'a> {
         let neighbour = |sector: u32| Label { sector, i: i32::from(lattice.has_centre()), j: 0 };
         let ring: Vec<usize> = (0..).map_while(|sector| at(&neighbour(sector))).collect();
         let open = matches!(place, Place::Fan(kind) if !kind.is_closed());
-        let quarter = if open { ring.len() / 2 } else { (ring.len() + 2) / 4 };
+        // at a concave corner the edge half-way round may run straight on from the first
+        let quarter = match place {
+            Place::Fan(FanKind::Corner { .. }) => ring.len() / 3,
+            _ if open => ring.len() / 2,
+            _ => (ring.len() + 2) / 4,
+        };
         let pair = [0, quarter.clamp(1, ring.len().saturating_sub(1).max(1))];
         let mut random = Random(seed);
         let points = (0..mesh.vertices()).map(|_| [random.next(), random.next(), random.next()]).collect();

@@ -9,8 +9,8 @@ use std::collections::BTreeSet;
 use toml::Spanned;
 use toml::de::DeValue;
 
-/// The kinds of vertex that a claim may be made at.
-const KINDS: [&str; 3] = ["crease", "corner", "dart"];
+/// The kinds of vertex that a claim may be made at, and that a flatness is told for.
+pub(super) const KINDS: [&str; 3] = ["crease", "corner", "dart"];
 
 impl Reader<'_> {
     pub(super) fn boundary_claims(&mut self, items: &[Item], book: &RuleBook) -> Vec<BoundaryClaim> {

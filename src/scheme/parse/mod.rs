@@ -6,6 +6,7 @@
 mod boundary_claims;
 mod claims;
 mod curve;
+mod flatness;
 mod grid;
 mod names;
 mod passes;
@@ -25,7 +26,7 @@ use toml::de::{DeTable, DeValue};
 pub const MAX_FILE_BYTES: usize = 1 << 16;
 
 /// Every key of a scheme file and of a boundary file, as the README's table lists them.
-pub const KEYS: [&str; 42] = [
+pub const KEYS: [&str; 43] = [
     "name",
     "mesh",
     "split",
@@ -54,6 +55,7 @@ pub const KEYS: [&str; 42] = [
     "edge.from-crease-end, edge.from-corner-end, edge.from-dart-end",
     "like",
     "triangles, quads",
+    "flatness",
     "claims.at",
     "arity",
     "mask",
@@ -72,8 +74,8 @@ pub const KEYS: [&str; 42] = [
 
 const SCHEME_KEYS: [&str; 12] =
     ["name", "mesh", "split", "source", "boundary", "parameters", "let", "vertex", "edge", "face", "corner", "pass"];
-const BOUNDARY_KEYS: [&str; 10] =
-    ["name", "source", "like", "parameters", "let", "vertex", "edge", ON_TRIANGLES, ON_QUADS, "claims"];
+const BOUNDARY_KEYS: [&str; 11] =
+    ["name", "source", "like", "parameters", "let", "vertex", "edge", ON_TRIANGLES, ON_QUADS, "flatness", "claims"];
 /// The tables of a boundary file for one kind of mesh only.
 const ON_TRIANGLES: &str = "triangles";
 const ON_QUADS: &str = "quads";
@@ -110,11 +112,23 @@ impl Scheme {
 }
 
 impl RuleBook {
-    /// Sets a parameter of this file.
+    /// Whether this file, or that which it is like, has a parameter of this name.
+    pub fn has_parameter(&self, name: &str) -> bool {
+        let own = self.parameters.iter().any(|own| own.name == name);
+        own || self.like.as_ref().is_some_and(|like| like.has_parameter(name))
+    }
+
+    /// Sets a parameter of this file, or of that which it is like; of both where both have it.
     ///
     /// # Errors
     /// Why it can't be set, in words.
     pub fn set(&mut self, name: &str, given: &str) -> Result<(), String> {
+        if let Some(like) = self.like.as_mut().filter(|like| like.has_parameter(name)) {
+            like.set(name, given)?;
+            if self.parameters.iter().all(|own| own.name != name) {
+                return Ok(());
+            }
+        }
         let known: Vec<String> = self.parameters.iter().map(|p| p.name.clone()).collect();
         let Some(parameter) = self.parameters.iter_mut().find(|p| p.name == name) else {
             return Err(match known.as_slice() {
@@ -224,8 +238,9 @@ impl<'t> Reader<'t> {
         }
         let like = self.like(&items, mesh);
         let book = self.book(&items, origin, Some(mesh), true)?;
+        let flatness = self.flatness(&items, &book);
         let claims = self.boundary_claims(&items, &book);
-        Some(RuleBook { like, claims, ..book })
+        Some(RuleBook { like, flatness, claims, ..book })
     }
 
     /// The boundary file of the catalogue that another one is like.
@@ -270,6 +285,7 @@ impl<'t> Reader<'t> {
                 _ => None,
             },
             like: None,
+            flatness: BTreeMap::new(),
             claims: vec![],
         };
         book.rules = self.rules(&book, items, mesh, boundary);
