@@ -29,6 +29,14 @@ impl<F: Field> Quotient<F> {
         Quotient { numerator, denominator: Univariate::constant(F::whole(1)) }
     }
 
+    /// The quotient of two polynomials.
+    ///
+    /// # Errors
+    /// When the one below is 0, or a limit of size is passed.
+    pub fn of(above: Univariate<F>, below: Univariate<F>) -> Result<Self, Trouble> {
+        Quotient::reduced(above, below)
+    }
+
     /// The polynomial above.
     pub fn numerator(&self) -> &Univariate<F> {
         &self.numerator

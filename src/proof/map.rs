@@ -6,8 +6,8 @@
 //! a spoke, and a + b c > 0 on the dual lattice, where its axis is the middle of sector 0.
 
 use super::course::{Range, range};
-use super::jacobian::Pieces;
-use super::net::{Function, Net, Pair};
+use super::jacobian::{Grid, Pieces};
+use super::net::{Function, Net, Pair, polynomial_scale};
 use super::outcome::{Outcome, Valences};
 use super::positive::is_positive_quotient;
 use crate::analysis::Analyzer;
@@ -120,7 +120,8 @@ fn is_regular(net: &Net, pieces: Pieces) -> Result<bool, Obstacle> {
     Ok(true)
 }
 
-/// The functions that were shown to be positive, if S f = lambda f and all of them are; else where not.
+/// The functions that were shown to be positive, if S f = lambda f and all of them are; else where not. The map is looked at times a function
+/// of the parameter, the same for all its values, which makes them polynomials: that is an eigenfunction, too.
 ///
 /// # Errors
 /// When a limit of size is passed.
@@ -130,9 +131,16 @@ pub fn verify(
     lattice: Lattice,
     range: &Range,
 ) -> Result<Result<Vec<Function>, String>, Obstacle> {
-    let mut functions = Vec::new();
+    let mut patches = Vec::new();
     for patch in pieces.ring() {
-        let points = pieces.bezier(net, patch)?;
+        patches.push((patch, pieces.bezier(net, patch)?));
+    }
+    let points = || patches.iter().flat_map(|(_, points)| points.values()).flat_map(|(a, b)| [a, b]);
+    let scale = polynomial_scale(points, &range.interval.low)?;
+    let mut functions = Vec::new();
+    for (patch, points) in &patches {
+        let scaled = |(index, (a, b)): (&(usize, usize), &Pair)| Ok((*index, (a.times(&scale)?, b.times(&scale)?)));
+        let points: Grid<Pair> = points.iter().map(scaled).collect::<Result<_, Trouble>>()?;
         for (index, value) in pieces.jacobian(&points)? {
             if !is_positive_quotient(&value, &range.interval)? {
                 return Ok(Err(format!("coefficient {index:?} of the Jacobian on the patch at {:?}", patch.0)));

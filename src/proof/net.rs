@@ -12,7 +12,7 @@ use crate::analysis::exact::rows::Rows;
 use crate::analysis::neighbourhood::Orbit;
 use crate::mesh::{Label, Lattice, Patch};
 use crate::numbers::linear::{null_space, part, shifted};
-use crate::numbers::{C, Field, Free, FreeWorld, N, PerFrequency, Quotient, Trouble};
+use crate::numbers::{C, Field, Free, FreeWorld, N, PerFrequency, Quotient, Trouble, Univariate};
 use crate::refine::{Count, ExactWeights, Obstacle, Refinement};
 use crate::scheme::Scheme;
 use dashu_ratio::RBig;
@@ -194,6 +194,29 @@ pub fn turned<F: Field>((mut a, mut b): PairOf<F>, by: i64, c: &F) -> Result<Pai
         };
     }
     Ok((a, b))
+}
+
+/// A function whose products with all of these are polynomials without a common factor, and which is positive at a parameter.
+///
+/// # Errors
+/// When a limit of size is passed, or the parameter is a zero or a pole.
+pub fn polynomial_scale<'f, I>(functions: impl Fn() -> I, at: &RBig) -> Result<Function, Trouble>
+where
+    I: Iterator<Item = &'f Function>,
+{
+    let (mut above, mut below) = (Univariate::constant(RBig::ONE), Univariate::new(vec![]));
+    for own in functions() {
+        if !above.divided(own.denominator())?.1.is_zero() {
+            let common = above.gcd(own.denominator())?;
+            above = above.times(&own.denominator().divided(&common)?.0)?;
+        }
+        if below.degree() != Some(0) && !own.numerator().is_zero() {
+            below = below.gcd(own.numerator())?;
+        }
+    }
+    let scale = Function::of(above, below)?;
+    let sign = scale.evaluate(at, RBig::clone)?.signum();
+    scale.times(&Function::rational(&sign.into()))
 }
 
 /// A weight as a function of p.
