@@ -1,14 +1,15 @@
 //! Which spectra exclude C1 for every valence from one on?
 //!
-//! A radius r parts the eigenvalues after 1: those of the frequencies 0 and 1 are below r for every n, and some frequency
-//! k >= 2 has one above, since its c_k lies in a window of cosines where one is. Or those of frequency 0 are below r but for
-//! one that is real and simple, and so are all of other frequencies. Proved in docs/theory.md; enclosures decide.
+//! A radius r parts the eigenvalues after 1: those of the frequencies 0 and 1 are below r for every n, and some
+//! frequency k >= 2 has one above, since its c_k lies in a window of cosines where one is. Or those of frequency 0
+//! are below r but for one that is real and simple, and so are all of other frequencies. Proved in docs/theory.md;
+//! enclosures decide.
 
 use super::branch::{approx_largest_modulus, at_variable, rounded};
 use super::disc::{Number, all_within, between, deflated, is_negative};
 use super::parts::{cosine, depends_on_others, frequencies, in_order, in_t, one};
 use super::tail::FIRST;
-use crate::analysis::exact::formulas::{AllValences, Which};
+use crate::analysis::exact::formulas::{AllValences, FrequencyForms, Which};
 use crate::numbers::{C, C_K, Field, Free, Trouble, Univariate};
 use dashu_ratio::RBig;
 
@@ -16,6 +17,8 @@ use dashu_ratio::RBig;
 const MOST_HALVINGS: usize = 14;
 /// The most boxes of an attempt.
 const MOST_BOXES: usize = 4000;
+/// The most halvings of a step of a window.
+const WINDOW_HALVINGS: usize = 5;
 /// Windows of k/n have ends that are multiples of 1/STEPS.
 const STEPS: usize = 96;
 /// Radii are multiples of 2^-RADIUS_BITS.
@@ -41,7 +44,8 @@ pub fn against_c1(forms: &AllValences) -> Result<Option<(usize, String)>, Troubl
     Ok(None)
 }
 
-/// The factors of the characteristic polynomials in t, at the place of n, and c, but for general ones in c_k.
+/// The factors of the characteristic polynomials, each as often as it stands there, in t, at the place of n, and c; general
+/// ones in c_k.
 struct Parts {
     zero: Vec<Univariate<Free>>,
     first: Vec<Univariate<Free>>,
@@ -59,8 +63,8 @@ impl Parts {
         if general.iter().any(|own| depends_on_others(own, C_K)) {
             return Ok(None);
         }
-        let all = |own: &crate::analysis::exact::formulas::FrequencyForms| {
-            let factors = own.forms.iter().map(|form| &form.polynomial);
+        let all = |own: &FrequencyForms| {
+            let factors = own.forms.iter().flat_map(|form| std::iter::repeat_n(&form.polynomial, form.multiplicity));
             factors.map(|own| own.mapped(in_t)).collect::<Result<Vec<_>, _>>()
         };
         let with_c = |own: &Free| own.substituted(C_K, &Free::variable(C));
@@ -260,9 +264,7 @@ fn window(general: &[Univariate<Free>], radius: &RBig) -> Result<Option<(usize, 
     for own in general {
         let mut start = 1;
         for i in 1..STEPS / 2 {
-            let (first, last) = (cosine(&part(i, STEPS))?, cosine(&part(i + 1, STEPS))?);
-            let value = at_variable(own, C_K, &first.hull(&last))?.evaluate(&Number::rational(radius))?;
-            if !is_negative(&value) {
+            if !has_root_above(own, radius, (part(i, STEPS), part(i + 1, STEPS)), WINDOW_HALVINGS)? {
                 start = i + 1;
             } else if longest.is_none_or(|(low, high)| i + 1 - start > high - low) && i + 1 < STEPS / 2 {
                 longest = Some((start, i + 1));
@@ -270,6 +272,23 @@ fn window(general: &[Univariate<Free>], radius: &RBig) -> Result<Option<(usize, 
         }
     }
     Ok(longest)
+}
+
+/// Whether a monic polynomial has a root above a radius for every k/n in a box: it is negative there.
+fn has_root_above(
+    own: &Univariate<Free>,
+    radius: &RBig,
+    (from, to): (RBig, RBig),
+    left: usize,
+) -> Result<bool, Trouble> {
+    let cosines = cosine(&from)?.hull(&cosine(&to)?);
+    if is_negative(&at_variable(own, C_K, &cosines)?.evaluate(&Number::rational(radius))?) {
+        return Ok(true);
+    }
+    let middle = (&from + &to) / RBig::from(2);
+    Ok(left > 0
+        && has_root_above(own, radius, (from, middle.clone()), left - 1)?
+        && has_root_above(own, radius, (middle, to), left - 1)?)
 }
 
 /// A polynomial in t and c, enclosed for every t in a box.
