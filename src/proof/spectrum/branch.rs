@@ -13,6 +13,9 @@ use dashu_int::UBig;
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
 
+/// Steps of Newton's method.
+const NEWTON_STEPS: usize = 60;
+
 /// The factor of the characteristic polynomial, with its derivatives.
 pub struct Branch {
     polynomial: Univariate<Free>,
@@ -122,13 +125,39 @@ fn derivative(value: &Free, variable: usize) -> Result<Free, Trouble> {
     top.over(&below.times(&below)?)
 }
 
-/// The largest real root, approximately: a guess that is never taken on trust.
+/// The largest real root, approximately, by Newton's method from above where that gets there: a guess that is never taken
+/// on trust.
 pub fn approx_largest(polynomial: &Univariate<Number>) -> Option<f64> {
+    let approx: Vec<f64> = polynomial.coefficients().iter().map(Number::midpoint_f64).collect();
+    if let Some(root) = approx_from_above(&approx) {
+        return Some(root);
+    }
     let middle = |value: &Number| Number::from_f64(value.midpoint_f64()).ok();
     let coefficients: Vec<Number> = polynomial.coefficients().iter().map(middle).collect::<Option<_>>()?;
     let found = roots(&coefficients).ok()?;
     let real = found.iter().filter(|root| root.im.contains(&RBig::ZERO)).map(|root| root.re.midpoint_f64());
     real.max_by(f64::total_cmp)
+}
+
+/// Newton's method from 2 down; `None` where a step goes past a root.
+fn approx_from_above(coefficients: &[f64]) -> Option<f64> {
+    let mut x = 2.0;
+    for _ in 0..NEWTON_STEPS {
+        let (mut value, mut slope) = (0.0, 0.0);
+        for coefficient in coefficients.iter().rev() {
+            slope = slope * x + value;
+            value = value * x + coefficient;
+        }
+        let step: f64 = value / slope;
+        if step.abs() < 1e-15 {
+            return Some(x - step);
+        }
+        if !step.is_finite() || value < 0.0 || slope < 0.0 {
+            return None;
+        }
+        x -= step;
+    }
+    None
 }
 
 /// The largest modulus of the roots, approximately.

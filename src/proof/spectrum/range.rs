@@ -31,7 +31,8 @@ const RADIUS_BITS: u32 = 12;
 /// When a limit of size is passed.
 pub fn against_c1(forms: &AllValences) -> Result<Option<(usize, String)>, Trouble> {
     let Some(parts) = Parts::of(forms)? else { return Ok(None) };
-    for from in FIRST.into_iter().filter(|first| *first >= forms.from) {
+    let holds = |first: &usize| *first >= forms.from && forms.except.is_none_or(|except| *first > except);
+    for from in FIRST.into_iter().filter(holds) {
         let mut attempt = Attempt { parts: &parts, from, boxes: 0 };
         let found = match attempt.general_leads()? {
             None => attempt.zero_leads()?,
