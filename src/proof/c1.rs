@@ -1,18 +1,30 @@
-//! What do proofs say of C1 at a valence?
+//! What do proofs say of C1, at a valence and at every valence from one on?
 //!
-//! Reif's conditions (1995) on the characteristic map by [`super::maps`], and what excludes C1 by [`super::spectrum::refutation`].
+//! Reif's conditions (1995): the order of the eigenvalues, the characteristic map ([`super::maps`]), and the regular part by its
+//! symbol ([`crate::analysis::regular`]). What excludes C1 is told by [`super::spectrum::refutation`].
 
 use super::maps::Maps;
 use super::outcome::Outcome;
 use super::spectrum::refutation::{against_c1, is_effective};
+use super::spectrum::{range, tail};
 use crate::analysis::Analyzer;
 use crate::analysis::exact::ExactAnalysis;
 
 /// What is proved of a scheme, whatever the valence.
-#[derive(Clone, Debug)]
-pub struct Proofs {
-    maps: Maps,
+pub struct Proofs<'p, 's> {
+    /// The scheme's analysis.
+    pub analyzer: &'p Analyzer<'s>,
+    maps: Maps<'p, 's>,
     effective: bool,
+}
+
+/// What is proved of C1 at every valence from one on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tail {
+    /// That valence.
+    pub from: usize,
+    /// Whether limit surfaces are C1 there, for generic control points, and how that is known.
+    pub c1: Outcome<String>,
 }
 
 /// What proofs say at a valence.
@@ -24,15 +36,45 @@ pub struct Found {
     pub against_c1: Option<String>,
 }
 
-impl Proofs {
+impl<'p, 's> Proofs<'p, 's> {
     /// Tries what can be proved at once.
-    pub fn of(analyzer: &Analyzer) -> Proofs {
-        Proofs { maps: Maps::of(analyzer), effective: is_effective(analyzer) }
+    pub fn of(analyzer: &'p Analyzer<'s>) -> Proofs<'p, 's> {
+        Proofs { analyzer, maps: Maps::of(analyzer), effective: is_effective(analyzer) }
     }
 
     /// What is proved at a valence, whose exact analysis this is.
     pub fn at(&self, n: usize, exact: Option<&ExactAnalysis>) -> Found {
         let against_c1 = exact.and_then(|exact| against_c1(exact, n, self.effective));
         Found { map: self.maps.at(n, exact), against_c1 }
+    }
+
+    /// What is proved at every valence from one on. `affine` tells whether the weights of every rule sum to 1 at every valence.
+    pub fn tail(&self, affine: bool) -> Tail {
+        self.attempt(affine).unwrap_or_else(|at| Tail { from: 3, c1: Outcome::stuck(at) })
+    }
+
+    fn attempt(&self, affine: bool) -> Result<Tail, String> {
+        let forms = self.analyzer.forms()?;
+        if self.effective {
+            if let Some((from, witness)) = range::against_c1(forms).map_err(|trouble| trouble.to_string())? {
+                return Ok(Tail { from, c1: Outcome::Refuted { witness } });
+            }
+        }
+        if !affine {
+            return Err("the weights are not shown to sum to 1".to_string());
+        }
+        if self.analyzer.regular()?.smoothness.is(1) != Some(true) {
+            return Err("limits on regular meshes are not proved to be C1".to_string());
+        }
+        let order = tail::prove(forms).map_err(|trouble| trouble.to_string())??;
+        match self.maps.from() {
+            Outcome::Proved((first, map)) => {
+                let from = order.from.max(first).max(order.except.map_or(3, |n| n + 1));
+                let order = format!("the order of the eigenvalues is proved for every n >= {} at once", order.from);
+                let c1 = format!("every condition of Reif's theorem is proved: {order}, the characteristic map {map}");
+                Ok(Tail { from, c1: Outcome::Proved(c1) })
+            }
+            Outcome::Refuted { witness: at } | Outcome::Undecided { at } => Err(at),
+        }
     }
 }

@@ -1,50 +1,71 @@
 //! What are the Bezier points of a patch of the ring, and the Bernstein coefficients of its Jacobian?
 //!
-//! Tensor-product B-splines of degree 2 and 3 and the quartic box spline of three directions, each taken twice. Common positive factors are
-//! dropped. The Jacobian is the determinant of the two derivatives; its coefficients are sums of determinants of differences of Bezier
-//! points (Farin 2002), and where all of them are positive, so is it on the closed patch.
+//! Tensor-product B-splines and the quartic box spline of three directions, each taken twice. Common positive factors
+//! are dropped. The Jacobian is the determinant of the two derivatives; its coefficients are sums of determinants of
+//! differences of Bezier points (Farin 2002), and where all of them are positive, so is it on the closed patch. Values
+//! are of any field.
 
-use super::net::{Function, Net, Pair};
-use super::positive::binomial;
+use super::b_spline::{bezier_rows, choose};
 use crate::analysis::regular::box_spline::BoxSpline;
 use crate::mesh::Lattice;
 use crate::numbers::{Field, Trouble};
 use crate::refine::Obstacle;
-use dashu_ratio::RBig;
 use std::collections::BTreeMap;
 
 /// The Bezier points or coefficients of a patch, by their indices.
 pub type Grid<T> = BTreeMap<(usize, usize), T>;
 
+/// A patch by its origin, with a sign: -1 for a triangle turned by half a turn.
+pub type PatchAt = ((i32, i32), i32);
+
+/// A net of values a + b w, as pairs.
+pub trait ControlNet {
+    /// What a and b are.
+    type Value: Field;
+
+    /// The value at (i, j) in the coordinates of sector 0, which may reach into the sectors beside it.
+    ///
+    /// # Errors
+    /// When it isn't determined, or a limit of size is passed.
+    fn at(&mut self, i: i32, j: i32) -> Result<(Self::Value, Self::Value), Obstacle>;
+}
+
 /// What the limit functions of a scheme are on a regular mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pieces {
-    /// Tensor products of this degree, 2 or 3.
+    /// Tensor products of this degree.
     Tensor(usize),
     /// Quartics on triangles.
     Quartic,
 }
 
+/// Tensor products up to this degree: all factors stay small whole numbers.
+const MOST_DEGREE: usize = 15;
+
 impl Pieces {
-    /// The pieces of a box spline on a lattice, where there is a table for them.
+    /// The pieces of a box spline on a lattice, where they are of one of these kinds: at a vertex of the lattice a
+    /// symmetric B-spline has an odd degree, at the middle of a face an even one.
     pub fn of(spline: &BoxSpline, lattice: Lattice) -> Option<Pieces> {
         let mut directions = spline.directions.clone();
         directions.sort_unstable();
         match (lattice, spline.bidegree()) {
-            (Lattice::Quads, Some([3, 3])) => Some(Pieces::Tensor(3)),
-            (Lattice::Dual, Some([2, 2])) => Some(Pieces::Tensor(2)),
             (Lattice::Triangles, None) => {
                 let twice = directions.len() == 3 && directions.iter().all(|(_, times)| *times == 2);
                 let steps = [[1, 0], [0, 1], [-1, 1]];
                 let step = |d: &[i32; 2]| steps.contains(d) || steps.contains(&[-d[0], -d[1]]);
                 (twice && directions.iter().all(|(d, _)| step(d))).then_some(Pieces::Quartic)
             }
+            (Lattice::Quads | Lattice::Dual, Some([d, e])) => {
+                let odd = d % 2 == 1;
+                let known = d == e && (2..=MOST_DEGREE).contains(&d) && odd == (lattice == Lattice::Quads);
+                known.then_some(Pieces::Tensor(d))
+            }
             _ => None,
         }
     }
 
-    /// The patches of half a sector of the ring, as their origins with a sign: -1 for a triangle turned by half a turn.
-    pub fn ring(self) -> [((i32, i32), i32); 2] {
+    /// The patches of half a sector of the innermost ring.
+    pub fn ring(self) -> [PatchAt; 2] {
         let last = if self == Pieces::Quartic { -1 } else { 1 };
         [((1, 0), 1), ((1, 1), last)]
     }
@@ -52,19 +73,32 @@ impl Pieces {
     /// The controls of patches i..k along a direction are those from i + the first number to before k + the second.
     pub fn controls(self) -> (i32, i32) {
         match self {
-            Pieces::Tensor(degree) => (-1, degree as i32 - 1),
+            Pieces::Tensor(degree) => (-(degree as i32 / 2), (degree - degree / 2) as i32),
             Pieces::Quartic => (-1, 2),
+        }
+    }
+
+    /// Where the controls of a patch are.
+    pub fn stencil(self, ((x, y), sign): PatchAt) -> Vec<(i32, i32)> {
+        match self {
+            Pieces::Tensor(_) => {
+                let (low, end) = self.controls();
+                (y + low..=y + end).flat_map(|j| (x + low..=x + end).map(move |i| (i, j))).collect()
+            }
+            Pieces::Quartic => CONTROLS.iter().map(|(i, j)| (x + sign * i, y + sign * j)).collect(),
         }
     }
 
     /// The Bezier points of a patch, up to a common positive factor.
     ///
     /// # Errors
-    /// As [`Net::at`].
-    pub fn bezier(self, net: &mut Net, patch: ((i32, i32), i32)) -> Result<Grid<Pair>, Obstacle> {
+    /// As [`ControlNet::at`].
+    pub fn bezier<N: ControlNet>(self, net: &mut N, patch: PatchAt) -> Result<Grid<PairOf<N::Value>>, Obstacle> {
+        let controls: Vec<PairOf<N::Value>> =
+            self.stencil(patch).into_iter().map(|(i, j)| net.at(i, j)).collect::<Result<_, _>>()?;
         match self {
-            Pieces::Tensor(degree) => tensor(net, patch.0, degree),
-            Pieces::Quartic => quartic(net, patch),
+            Pieces::Tensor(degree) => Ok(tensor(&controls, degree)?),
+            Pieces::Quartic => Ok(quartic(&controls)?),
         }
     }
 
@@ -72,61 +106,71 @@ impl Pieces {
     ///
     /// # Errors
     /// When a limit of size is passed.
-    pub fn jacobian(self, points: &Grid<Pair>) -> Result<Grid<Function>, Trouble> {
-        let (first, second) = (differences(points, (1, 0))?, differences(points, (0, 1))?);
-        let mut sums = Grid::new();
+    pub fn jacobian<F: Field>(self, points: &Grid<PairOf<F>>) -> Result<Grid<F>, Trouble> {
+        let (first, second) = (self.derivative(points, (1, 0))?, self.derivative(points, (0, 1))?);
+        let mut sums: Grid<F> = Grid::new();
         for ((i, j), u) in &first {
             for ((k, l), v) in &second {
-                let factor = match self {
-                    Pieces::Tensor(d) => binomial(d - 1, *i) * binomial(d, *j) * binomial(d, *k) * binomial(d - 1, *l),
-                    Pieces::Quartic => trinomial(*i, *j) * trinomial(*k, *l),
-                };
                 let determinant = u.0.times(&v.1)?.minus(&u.1.times(&v.0)?)?;
-                let sum = sums.entry((i + k, j + l)).or_insert_with(|| Function::whole(0));
-                *sum = sum.plus(&determinant.times(&Function::rational(&factor))?)?;
+                let sum = sums.entry((i + k, j + l)).or_insert_with(|| F::whole(0));
+                *sum = sum.plus(&determinant)?;
             }
         }
         Ok(sums)
     }
-}
 
-/// 3!/(i! j! (3 - i - j)!).
-fn trinomial(i: usize, j: usize) -> RBig {
-    binomial(3, i) * binomial(3 - i, j)
-}
-
-fn differences(points: &Grid<Pair>, (di, dj): (usize, usize)) -> Result<Grid<Pair>, Trouble> {
-    let mut differences = Grid::new();
-    for ((i, j), (a, b)) in points {
-        if let Some((next_a, next_b)) = points.get(&(i + di, j + dj)) {
-            differences.insert((*i, *j), (next_a.minus(a)?, next_b.minus(b)?));
+    /// Whether the coefficient of the Jacobian with this index is its value at a corner of the patch.
+    pub fn is_corner(self, (i, j): (usize, usize)) -> bool {
+        match self {
+            Pieces::Tensor(degree) => [i, j].iter().all(|at| [0, 2 * degree - 1].contains(at)),
+            Pieces::Quartic => [(0, 0), (6, 0), (0, 6)].contains(&(i, j)),
         }
     }
-    Ok(differences)
+
+    /// The differences of the Bezier points along a direction, each times its Bernstein polynomial's factor.
+    fn derivative<F: Field>(
+        self,
+        points: &Grid<PairOf<F>>,
+        (di, dj): (usize, usize),
+    ) -> Result<Grid<PairOf<F>>, Trouble> {
+        let mut differences = Grid::new();
+        for ((i, j), (a, b)) in points {
+            if let Some((next_a, next_b)) = points.get(&(i + di, j + dj)) {
+                let factor = F::whole(match self {
+                    Pieces::Tensor(degree) => choose(degree - di, *i) * choose(degree - dj, *j),
+                    Pieces::Quartic => choose(3, *i) * choose(3 - i, *j),
+                });
+                differences.insert((*i, *j), (next_a.minus(a)?.times(&factor)?, next_b.minus(b)?.times(&factor)?));
+            }
+        }
+        Ok(differences)
+    }
 }
 
-fn combined<'p>(terms: impl Iterator<Item = (i64, &'p Pair)>) -> Result<Pair, Trouble> {
-    let mut sum = (Function::whole(0), Function::whole(0));
+/// A value a + b w, as (a, b).
+pub type PairOf<F> = (F, F);
+
+fn combined<'p, F: Field + 'p>(terms: impl Iterator<Item = (i64, &'p PairOf<F>)>) -> Result<PairOf<F>, Trouble> {
+    let mut sum = (F::whole(0), F::whole(0));
     for (weight, (a, b)) in terms.filter(|(weight, _)| *weight != 0) {
-        let weight = Function::whole(weight);
+        let weight = F::whole(weight);
         sum = (sum.0.plus(&a.times(&weight)?)?, sum.1.plus(&b.times(&weight)?)?);
     }
     Ok(sum)
 }
 
-/// 6 times the Bezier points of a cubic, 2 times those of a quadratic uniform B-spline.
-const CUBIC: [&[i64]; 4] = [&[1, 4, 1, 0], &[0, 4, 2, 0], &[0, 2, 4, 0], &[0, 1, 4, 1]];
-const QUADRATIC: [&[i64]; 3] = [&[1, 1, 0], &[0, 2, 0], &[0, 1, 1]];
-
-fn tensor(net: &mut Net, (x, y): (i32, i32), degree: usize) -> Result<Grid<Pair>, Obstacle> {
-    let rows: &[&[i64]] = if degree == 3 { &CUBIC } else { &QUADRATIC };
-    let mut controls = Grid::new();
-    for (i, j) in (0..=degree).flat_map(|j| (0..=degree).map(move |i| (i, j))) {
-        controls.insert((i, j), net.at(x + i as i32 - 1, y + j as i32 - 1)?);
+/// Along one direction after the other.
+fn tensor<F: Field>(controls: &[PairOf<F>], degree: usize) -> Result<Grid<PairOf<F>>, Trouble> {
+    let rows = bezier_rows(degree);
+    let mut along = Grid::new();
+    for (j, controls) in controls.chunks(degree + 1).enumerate() {
+        for (p, row) in rows.iter().enumerate() {
+            along.insert((p, j), combined(row.iter().copied().zip(controls))?);
+        }
     }
     let mut points = Grid::new();
     for (p, q) in (0..=degree).flat_map(|q| (0..=degree).map(move |p| (p, q))) {
-        let terms = controls.iter().map(|((i, j), value)| (rows[p][*i] * rows[q][*j], value));
+        let terms = rows[q].iter().enumerate().map(|(j, weight)| (*weight, &along[&(p, j)]));
         points.insert((p, q), combined(terms)?);
     }
     Ok(points)
@@ -136,8 +180,9 @@ fn tensor(net: &mut Net, (x, y): (i32, i32), degree: usize) -> Result<Grid<Pair>
 const CONTROLS: [(i32, i32); 12] =
     [(-1, 0), (0, -1), (-1, 1), (0, 0), (1, -1), (-1, 2), (0, 1), (1, 0), (2, -1), (0, 2), (1, 1), (2, 0)];
 
-/// 24 times the Bezier points of the quartic box spline: index (i, j) of u^i v^j (1 - u - v)^(4 - i - j), then the controls' weights.
-/// Its weights are those that two refinements and the limit masks give at the 15 points of the lattice of fourths.
+/// 24 times the Bezier points of the quartic box spline: index (i, j) of u^i v^j (1 - u - v)^(4 - i - j), then the
+/// controls' weights. Its weights are those that two refinements and the limit masks give at the 15 points of the
+/// lattice of fourths.
 const QUARTIC: [((usize, usize), [i64; 12]); 15] = [
     ((0, 0), [2, 2, 2, 12, 2, 0, 2, 2, 0, 0, 0, 0]),
     ((1, 0), [0, 1, 1, 12, 3, 0, 3, 4, 0, 0, 0, 0]),
@@ -156,12 +201,8 @@ const QUARTIC: [((usize, usize), [i64; 12]); 15] = [
     ((0, 4), [0, 0, 2, 2, 0, 2, 12, 2, 0, 2, 2, 0]),
 ];
 
-fn quartic(net: &mut Net, ((x, y), sign): ((i32, i32), i32)) -> Result<Grid<Pair>, Obstacle> {
-    let controls: Vec<Pair> =
-        CONTROLS.iter().map(|(i, j)| net.at(x + sign * i, y + sign * j)).collect::<Result<_, _>>()?;
-    let mut points = Grid::new();
-    for (index, weights) in &QUARTIC {
-        points.insert(*index, combined(weights.iter().copied().zip(&controls))?);
-    }
-    Ok(points)
+fn quartic<F: Field>(controls: &[PairOf<F>]) -> Result<Grid<PairOf<F>>, Trouble> {
+    let point =
+        |(index, weights): &((usize, usize), [i64; 12])| Ok((*index, combined(weights.iter().copied().zip(controls))?));
+    QUARTIC.iter().map(point).collect()
 }

@@ -14,6 +14,7 @@ use crate::analysis::Analyzer;
 use crate::mesh::Lattice;
 use crate::numbers::{Field, Trouble};
 use crate::refine::Obstacle;
+use std::fmt;
 
 /// How a map was proved regular and injective.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +27,16 @@ pub struct MapProof {
     pub functions: usize,
     /// Their largest degree.
     pub degree: usize,
+}
+
+impl fmt::Display for MapProof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "for {} at once, in exact arithmetic: {} rational functions of degree at most {} are positive",
+            self.valences, self.functions, self.degree
+        )
+    }
 }
 
 /// Whether the characteristic maps of all n are regular and injective. Nothing is said of the spectrum: whether lambda is subdominant at every n is a

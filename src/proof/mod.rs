@@ -1,12 +1,19 @@
 //! Which conditions hold for every valence, with a proof?
 //!
-//! The map part of C1, exactly: the characteristic map of every n >= 3 at once is regular and injective, for schemes that are
-//! piecewise polynomial and whose subdominant eigenvalue and c = cos(2 pi/n) are rational functions of one parameter ([`course`]). The net's
-//! values are rational functions of it ([`net`]), and so are the Bernstein coefficients of the Jacobian ([`jacobian`]); each is positive on the
-//! parameter's whole range ([`positive`]).
+//! The map part of C1, exactly: the characteristic map of every n >= 3 at once is regular and injective, for schemes
+//! that are piecewise polynomial and whose subdominant eigenvalue and c = cos(2 pi/n) are rational functions of one
+//! parameter ([`course`]). The net's values are rational functions of it ([`net`]), and so are the Bernstein
+//! coefficients of the Jacobian ([`jacobian`]); each is positive on the parameter's whole range ([`positive`]). For
+//! other piecewise polynomial schemes, by enclosures: at single valences, and over boxes of c that cover all of them
+//! ([`boxes`]). Schemes on triangles whose limits are no polynomials: by enclosed derivatives ([`derivative`]).
+//!
+//! The order of the eigenvalues, and what excludes C1: [`spectrum`]. Together: [`c1`].
 
+pub mod b_spline;
+pub mod boxes;
 pub mod c1;
 pub mod course;
+pub mod derivative;
 pub mod jacobian;
 pub mod map;
 pub mod maps;

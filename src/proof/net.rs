@@ -4,9 +4,11 @@
 //! (a, b) -> (-b, a + 2 c b). No sine stands in it, so that n enters through c = cos(2 pi/n) alone, and c = 1, the limit of large n, is no
 //! special value. Since a + b w has the real coordinates a + b c and b sin(2 pi/n), the determinant of two pairs has the sign of that of the points.
 
+use super::jacobian::{ControlNet, PairOf};
 use super::positive::{Interval, is_positive};
 use crate::analysis::exact::block::{Block, Unknown, Wave};
 use crate::analysis::exact::formulas::{AllValences, GENERIC};
+use crate::analysis::exact::rows::Rows;
 use crate::analysis::neighbourhood::Orbit;
 use crate::mesh::{Label, Lattice, Patch};
 use crate::numbers::linear::{null_space, part, shifted};
@@ -22,7 +24,7 @@ use std::rc::Rc;
 pub type Function = Quotient<RBig>;
 
 /// A value a + b w.
-pub type Pair = (Function, Function);
+pub type Pair = PairOf<Function>;
 
 /// An old point and its weight in the row of a new one.
 type Entry = (Label, PerFrequency<Free>);
@@ -65,15 +67,6 @@ impl<'a> Net<'a> {
         let refinement = Refinement::weighed(scheme, weights);
         let values = eigenvector(forms, &course)?;
         Ok(Net { course, patch: Patch::new(lattice, GENERIC), refinement, values })
-    }
-
-    /// The value at (i, j) in the coordinates of sector 0, which may reach into the sectors beside it.
-    ///
-    /// # Errors
-    /// As [`Net::of`].
-    pub fn at(&mut self, i: i32, j: i32) -> Result<Pair, Obstacle> {
-        let label = self.patch.point(0, i, j);
-        self.value(label, 0)
     }
 
     /// The values that have been asked for, by orbit.
@@ -133,7 +126,7 @@ impl<'a> Net<'a> {
     /// Whether the row of the new point at (i, j) in the coordinates of sector 0 is that of a regular mesh.
     ///
     /// # Errors
-    /// As [`Net::at`].
+    /// As [`Net::of`].
     pub fn is_regular_row(&self, i: i32, j: i32) -> Result<bool, Obstacle> {
         let own = self.refinement.row(&self.patch, self.patch.point(0, i, j))?;
         let far = self.refinement.row(&self.patch, Label { sector: 0, i: i + 2 * FAR, j: j + 2 * FAR })?;
@@ -167,6 +160,15 @@ impl<'a> Net<'a> {
     }
 }
 
+impl ControlNet for Net<'_> {
+    type Value = Function;
+
+    fn at(&mut self, i: i32, j: i32) -> Result<Pair, Obstacle> {
+        let label = self.patch.point(0, i, j);
+        self.value(label, 0)
+    }
+}
+
 fn sectors(label: Label) -> i64 {
     let (sector, n) = (i64::from(label.sector), GENERIC as i64);
     if 2 * sector > n { sector - n } else { sector }
@@ -176,8 +178,8 @@ fn sectors(label: Label) -> i64 {
 ///
 /// # Errors
 /// When a limit of size is passed.
-pub fn turned((mut a, mut b): Pair, by: i64, c: &Function) -> Result<Pair, Trouble> {
-    let twice = c.times(&Function::whole(2))?;
+pub fn turned<F: Field>((mut a, mut b): PairOf<F>, by: i64, c: &F) -> Result<PairOf<F>, Trouble> {
+    let twice = c.times(&F::whole(2))?;
     for _ in 0..by.abs() {
         (a, b) = match by > 0 {
             true => (b.negated(), a.plus(&twice.times(&b)?)?),
@@ -211,23 +213,36 @@ fn eigenvector(forms: &AllValences, course: &Course) -> Result<BTreeMap<Orbit, P
     let zero = Trouble::BeyondThisWorld("the vector is zero");
     let scale = vector.iter().find(|value| !value.is_certainly_zero()).ok_or(zero)?;
     let scaled: Vec<Function> = vector.iter().map(|value| value.over(scale)).collect::<Result<_, _>>()?;
-    let (nothing, c) = (Function::whole(0), &course.c);
+    placed(&block.unknowns, &scaled, &forms.rows, &course.c)
+}
+
+/// The values of the orbits, from those of the unknowns of the block of frequency 1.
+///
+/// # Errors
+/// When a limit of size is passed.
+pub fn placed<F: Field, G>(
+    unknowns: &[Unknown],
+    vector: &[F],
+    rows: &Rows<G>,
+    c: &F,
+) -> Result<BTreeMap<Orbit, PairOf<F>>, Trouble> {
+    let nothing = F::whole(0);
     let mut values = BTreeMap::new();
-    for (index, unknown) in block.unknowns.iter().enumerate() {
-        let own = scaled[index].clone();
+    for (index, unknown) in unknowns.iter().enumerate() {
+        let own = vector[index].clone();
         match *unknown {
             Unknown::Own(t) => {
-                let shift = forms.rows.mirrors[t].1;
+                let shift = rows.mirrors[t].1;
                 let start = if shift % 2 == 0 { (own, nothing.clone()) } else { (own.clone(), own) };
-                values.insert(forms.rows.orbits[t], turned(start, shift.div_euclid(2), c)?);
+                values.insert(rows.orbits[t], turned(start, shift.div_euclid(2), c)?);
             }
             Unknown::First(t, u) => {
-                let (shift, next) = (forms.rows.mirrors[t].1, scaled[index + 1].clone());
+                let (shift, next) = (rows.mirrors[t].1, vector[index + 1].clone());
                 // the conjugate of a + b w is a + b/w = (a + 2 c b) - b w
-                let other = own.plus(&c.times(&Function::whole(2))?.times(&next)?)?;
+                let other = own.plus(&c.times(&F::whole(2))?.times(&next)?)?;
                 let image = turned((other, next.negated()), shift, c)?;
-                values.insert(forms.rows.orbits[t], (own, next));
-                values.insert(forms.rows.orbits[u], image);
+                values.insert(rows.orbits[t], (own, next));
+                values.insert(rows.orbits[u], image);
             }
             _ => {}
         }

@@ -14,6 +14,13 @@ pub enum Valences {
 }
 
 impl Valences {
+    /// The first of them.
+    pub fn first(self) -> usize {
+        match self {
+            Valences::At(n) | Valences::From(n) => n,
+        }
+    }
+
     /// Whether a valence is among them.
     pub fn hold(self, n: usize) -> bool {
         match self {
@@ -53,5 +60,14 @@ impl<P> Outcome<P> {
     /// An attempt that got stuck.
     pub fn stuck(at: impl Into<String>) -> Self {
         Outcome::Undecided { at: at.into() }
+    }
+
+    /// The same with another account of the proof.
+    pub fn map<Q>(self, told: impl FnOnce(P) -> Q) -> Outcome<Q> {
+        match self {
+            Outcome::Proved(proof) => Outcome::Proved(told(proof)),
+            Outcome::Refuted { witness } => Outcome::Refuted { witness },
+            Outcome::Undecided { at } => Outcome::Undecided { at },
+        }
     }
 }

@@ -17,7 +17,9 @@ use crate::mesh::Label;
 use crate::proof::c1::Proofs;
 use crate::refine::{Obstacle, OrbitNames, Refinement};
 use crate::scheme::{RuleSum, Scheme, catalogue};
-use crate::verdicts::{ClaimCheck, Curvature, CurvatureClass, Verdict, bound, check_claims, curvature_of, verdicts};
+use crate::verdicts::{
+    ClaimCheck, Curvature, CurvatureClass, EveryValence, Verdict, bound, check_claims, curvature_of, verdicts,
+};
 use num_complex::Complex64;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -55,6 +57,10 @@ pub struct Report {
     /// Why there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why_no_formulas: Option<String>,
+    /// Whether limit surfaces are C1, for every n.
+    pub c1: EveryValence,
+    /// The file of the certificate that this is proved, beside the report; null where there is none.
+    pub certificate: Option<String>,
     /// One entry for each valence asked for.
     pub valences: Vec<ValenceReport>,
     /// What the literature says, beside the analysis.
@@ -358,6 +364,8 @@ impl Report {
                 (analysis, found)
             })
             .collect();
+        let known = |n: usize| judged.iter().find(|(analysis, _)| analysis.valence == n).map(|(_, own)| own.clone());
+        let c1 = EveryValence::of(&proofs, sums, &known)?;
         let claims = check_claims(scheme, &judged, &|name| names.orbit(name))?;
         let valences: Vec<ValenceReport> =
             judged.iter().map(|(analysis, verdicts)| valence_report(analysis, verdicts, &names, digits)).collect();
@@ -388,6 +396,8 @@ impl Report {
             regular_free: with_parameters_free(scheme).as_ref().map(regular_report),
             all_valences: analyzer.forms().ok().map(|forms| all_valences(forms, &names)),
             why_no_formulas: analyzer.forms().err().map(str::to_string),
+            c1,
+            certificate: None,
             valences,
             claims,
             sweep: None,

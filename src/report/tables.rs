@@ -4,7 +4,7 @@
 
 use super::formulas::{AllValencesReport, Formula};
 use super::model::{EigenvalueReport, Quantity, Report, ValenceReport, centre_weight};
-use crate::verdicts::{ClaimCheck, CurvatureClass, Decision, Evidence, Outcome, Verdict, digits};
+use crate::verdicts::{ClaimCheck, CurvatureClass, Decision, Evidence, Outcome, Stretch, Verdict, digits};
 
 /// Frequencies from this one on are left out of tables that have a column for each; the JSON and CSV forms have all.
 const MOST_FREQUENCIES: usize = 7;
@@ -105,6 +105,7 @@ pub fn tables(report: &Report) -> Vec<Table> {
         limit_masks(report),
         tangent_masks(report),
         conditions(report),
+        c1(report),
     ]);
     tables.extend(super::boundary::tables(&report.boundary));
     tables.extend(super::ranges::table(&report.ranges));
@@ -372,11 +373,25 @@ fn conditions(report: &Report) -> Table {
     Table::new("Conditions", note, head, report.valences.iter().map(row).collect())
 }
 
+/// C1 for every n.
+fn c1(report: &Report) -> Table {
+    let row = |stretch: &Stretch| {
+        vec![stretch.valences().into(), stretch.verdict.word().into(), stretch.why.join("; ").into()]
+    };
+    let file = report.certificate.as_ref().map_or(String::new(), |file| {
+        format!(" The proof is in {file}, which `eigenring check {file}` checks against the scheme file.")
+    });
+    let note = format!(
+        "Limit surfaces are C1 at the extraordinary point, for generic control points: {}.{file}",
+        report.c1.statement
+    );
+    Table::new("C1 for every n", &note, words(&["n", "C1", "why"]), report.c1.stretches.iter().map(row).collect())
+}
+
 /// A verdict in a word or two.
 pub fn verdict_word(verdict: &Verdict) -> &'static str {
     match (verdict.verdict, verdict.evidence) {
-        (Decision::Proved, _) => "proved",
-        (Decision::Refuted, _) => "refuted",
+        (Decision::Proved | Decision::Refuted, _) => verdict.verdict.word(),
         (Decision::Undecided, Evidence::For) => "seems so",
         (Decision::Undecided, Evidence::Against) => "seems not",
         (Decision::Undecided, Evidence::None) => "open",

@@ -36,6 +36,7 @@ pub fn terminal(report: &Report) -> String {
         "\nl is lambda, mu the next eigenvalue over the full neighbourhood. Weights sum to 1: {affine}."
     );
     text.push_str(&known(report));
+    let _ = writeln!(text, "C1 for generic control points: {}.", report.c1.statement);
     text.push_str(&formulas(report));
     text.push_str(&report.regular.as_ref().map_or(String::new(), super::regular::terminal));
     for claim in report.claims.iter().filter(|claim| claim.outcome != Outcome::Agrees) {
@@ -67,10 +68,9 @@ fn known(report: &Report) -> String {
         (0, 0, _) => "All else is approximate (f64)".to_string(),
         _ => format!("Eigenvalues are exact at {exact} valences, enclosed at {enclosed}, approximate (f64) at {rest}"),
     };
-    let decided =
-        |v: &ValenceReport| v.verdicts.iter().any(|own| own.claim == "C1" && own.verdict != Decision::Undecided);
-    if report.valences.iter().all(decided) {
-        return format!("{what}. C1 is decided by proofs, for generic control points.\n");
+    let open = |v: &ValenceReport| v.verdicts.iter().any(|own| own.claim == "C1" && own.verdict == Decision::Undecided);
+    if !report.valences.iter().any(open) {
+        return format!("{what}.\n");
     }
     format!("{what}; 'seems so' and 'seems not' are evidence, not proof.\n")
 }

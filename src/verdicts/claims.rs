@@ -197,25 +197,24 @@ fn property(made: &[(&Analysis, &Vec<Verdict>)], quantity: &Quantity) -> (Outcom
     };
     let valence =
         |test: &dyn Fn(&(usize, Decision, Evidence)) -> bool| found.iter().find(|own| test(own)).map(|own| own.0);
-    let word = |decision: Decision| if decision == Decision::Proved { "proved" } else { "refuted" };
     if found.iter().all(|own| own.1 == says.0) {
-        return (Outcome::Agrees, format!("{} at every valence", word(says.0)));
+        return (Outcome::Agrees, format!("{} at every valence", says.0.word()));
     }
     if let Some(n) = valence(&|own| own.1 == denies.0) {
-        return (Outcome::Disagrees, format!("{} at n = {n}", word(denies.0)));
+        return (Outcome::Disagrees, format!("{} at n = {n}", denies.0.word()));
     }
     if let Some(n) = valence(&|own| own.2 == denies.1) {
         return (Outcome::Disagrees, format!("evidence against it at n = {n}"));
     }
     match valence(&|own| own.1 != says.0 && own.2 != says.1) {
         Some(n) => (Outcome::Undecided, format!("not seen either way at n = {n}")),
-        None => (Outcome::Undecided, format!("evidence for it at every valence; not {}", word(says.0))),
+        None => (Outcome::Undecided, format!("evidence for it at every valence; not {}", says.0.word())),
     }
 }
 
 /// What is decided, and what is seen, of C1 at a valence.
 fn c1(n: usize, verdicts: &[Verdict]) -> (usize, Decision, Evidence) {
-    let of_c1 = verdicts.iter().find(|verdict| verdict.claim == "C1");
+    let of_c1 = verdicts.iter().find(|verdict| verdict.claim == super::C1);
     of_c1.map_or((n, Decision::Undecided, Evidence::None), |own| (n, own.verdict, own.evidence))
 }
 

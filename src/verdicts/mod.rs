@@ -7,11 +7,13 @@ mod boundary;
 mod boundary_claims;
 mod claims;
 mod curve;
+mod every_valence;
 
 pub use boundary::c1_up_to_boundary;
 pub use boundary_claims::check_boundary_claims;
 pub use claims::{ClaimCheck, Outcome, check_claims};
 pub use curve::{CurveFacts, check_curve_claims};
+pub use every_valence::{EveryValence, Stretch};
 
 use crate::analysis::Analysis;
 use crate::analysis::exact::{Arithmetic, ExactAnalysis, ExactEigenvalue};
@@ -32,6 +34,17 @@ pub enum Decision {
     Refuted,
     /// Neither: the reasons say what is missing.
     Undecided,
+}
+
+impl Decision {
+    /// In a word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Decision::Proved => "proved",
+            Decision::Refuted => "refuted",
+            Decision::Undecided => "undecided",
+        }
+    }
 }
 
 /// Which way floating numbers point, where they don't decide.
@@ -64,6 +77,9 @@ pub struct Verdict {
     /// Keys of the bibliography.
     pub source: Vec<String>,
 }
+
+/// The claim that decides whether surfaces are smooth.
+const C1: &str = "C1";
 
 const APPROXIMATE: &str = "approximate (f64): exact or enclosed eigenvalues would decide";
 const SAMPLED: &str = "sampled in f64: an enclosure of the Jacobian over the whole ring would decide";
@@ -354,7 +370,7 @@ fn no_map(analysis: &Analysis) -> String {
 fn c1(conditions: &[Verdict], against: Option<&str>) -> Verdict {
     let states = "limit surfaces are C1 at the extraordinary point, for generic control points";
     let undecided = |evidence, why: &[String]| {
-        undecided("C1", states, "-".to_string(), evidence, why, &["reif-1995", "peters-reif-2008"])
+        undecided(C1, states, "-".to_string(), evidence, why, &["reif-1995", "peters-reif-2008"])
     };
     if let Some(why) = against {
         return Verdict { verdict: Decision::Refuted, ..undecided(Evidence::Against, &[why.to_string()]) };
@@ -364,7 +380,7 @@ fn c1(conditions: &[Verdict], against: Option<&str>) -> Verdict {
     }
     let open: Vec<&Verdict> = conditions.iter().filter(|own| own.verdict != Decision::Proved).collect();
     if open.is_empty() {
-        let why = "every condition of Reif's theorem is proved: the six before".to_string();
+        let why = "every condition of Reif's theorem is proved".to_string();
         return Verdict { verdict: Decision::Proved, ..undecided(Evidence::For, &[why]) };
     }
     if let Some(own) = conditions.iter().find(|own| own.evidence == Evidence::Against) {

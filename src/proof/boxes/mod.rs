@@ -1,0 +1,128 @@
+//! Is the characteristic map of a piecewise polynomial scheme regular and injective, by enclosures?
+//!
+//! The same two tests as in [`crate::proof::map`], for what that does not reach: single valences with rules of their
+//! own ([`valence`]), and B-splines of any degree, whose wider stencils ask for a ring further out ([`ring`]). Values
+//! are enclosed ([`enclosed_net`]), so that a sign is proven ([`signs`]): at one valence, or on boxes of c that cover
+//! all valences from one on ([`cover`]). Where the Jacobian is certainly negative at a point, the map is not injective
+//! (docs/theory.md).
+
+pub mod cover;
+pub mod enclosed_map;
+pub mod enclosed_net;
+pub mod kernel;
+pub mod ring;
+pub mod root;
+pub mod signed;
+pub mod signs;
+pub mod taylor;
+pub mod valence;
+
+use super::jacobian::Pieces;
+use super::outcome::{Outcome, Valences};
+use crate::analysis::Analyzer;
+use crate::analysis::exact::ExactAnalysis;
+use crate::mesh::Patch;
+use crate::numbers::Interval;
+use crate::refine::Obstacle;
+use cover::Family;
+use enclosed_map::{CosineBox, EnclosedMap};
+use ring::half_sector;
+use signs::Reader;
+
+/// A patch is quartered so often.
+const DEPTH: usize = 5;
+
+/// Whether the characteristic maps of these valences are regular and injective. Nothing is said of the spectrum.
+pub fn prove(analyzer: &Analyzer, valences: Valences) -> Outcome<EnclosedMap> {
+    match valences {
+        Valences::At(n) => match analyzer.at(n).map(|analysis| analysis.exact) {
+            Ok(Ok(exact)) => prove_at(analyzer, n, &exact),
+            Ok(Err(why)) => Outcome::stuck(why),
+            Err(obstacle) => Outcome::stuck(obstacle.to_string()),
+        },
+        Valences::From(first) => {
+            attempt_from(analyzer, first).unwrap_or_else(|obstacle| Outcome::stuck(obstacle.to_string()))
+        }
+    }
+}
+
+/// From the valence on from which the forms hold by boxes of c; those before it, and one with rules of its own, apart.
+fn attempt_from(analyzer: &Analyzer, first: usize) -> Result<Outcome<EnclosedMap>, Obstacle> {
+    let pieces = match pieces(analyzer) {
+        Ok(pieces) => pieces,
+        Err(why) => return Ok(Outcome::stuck(why)),
+    };
+    let scheme = analyzer.scheme().with_values();
+    let family = match Family::of(analyzer, &scheme, pieces)? {
+        Ok(family) => family,
+        Err(why) => return Ok(Outcome::stuck(why)),
+    };
+    let Some(radius) = family.radius() else { return Ok(Outcome::stuck(NO_RING)) };
+    let from = family.from().max(first);
+    let mut whole = EnclosedMap { valences: Valences::From(first), pieces, radius, patches: 0, boxes: Vec::new() };
+    for n in (first..from).chain(family.except().filter(|n| *n >= from)) {
+        match prove(analyzer, Valences::At(n)) {
+            Outcome::Proved(own) => {
+                whole.radius = whole.radius.max(own.radius);
+                whole.patches += own.patches;
+                whole.boxes.extend(own.boxes);
+            }
+            other => return Ok(other),
+        }
+    }
+    Ok(match family.cover(radius, from)? {
+        Ok(cover) => {
+            whole.patches += cover.patches;
+            whole.boxes.extend(cover.boxes);
+            Outcome::Proved(whole)
+        }
+        Err(at) => Outcome::stuck(at),
+    })
+}
+
+const NO_RING: &str = "rules at the extraordinary point reach into every ring that was tried";
+
+/// Whether the characteristic map of one valence is, from the exact analysis there.
+pub fn prove_at(analyzer: &Analyzer, n: usize, analysis: &ExactAnalysis) -> Outcome<EnclosedMap> {
+    attempt_at(analyzer, n, analysis).unwrap_or_else(|obstacle| Outcome::stuck(obstacle.to_string()))
+}
+
+fn attempt_at(analyzer: &Analyzer, n: usize, analysis: &ExactAnalysis) -> Result<Outcome<EnclosedMap>, Obstacle> {
+    let pieces = match pieces(analyzer) {
+        Ok(pieces) => pieces,
+        Err(why) => return Ok(Outcome::stuck(why)),
+    };
+    let scheme = analyzer.scheme().with_values();
+    let patch = Patch::new(analyzer.lattice(), n);
+    let Some(radius) = valence::radius_at(analyzer, &scheme, pieces, patch) else {
+        return Ok(Outcome::stuck(NO_RING));
+    };
+    let Some(mut net) = valence::net_at(&scheme, analysis, patch)? else {
+        return Ok(Outcome::stuck(format!(
+            "n = {n}: no simple, real and positive subdominant eigenvalue of frequency 1"
+        )));
+    };
+    let signs = Reader::read(&mut net, pieces, &half_sector(pieces, radius), DEPTH)?;
+    if !net.may_satisfy_its_equation()? {
+        return Ok(Outcome::stuck(format!("n = {n}: the net doesn't satisfy S f = lambda f")));
+    }
+    Ok(match (signs.missing(), &signs.negative) {
+        (Some(witness), Some(_)) => Outcome::Refuted { witness: format!("n = {n}: {witness}") },
+        (Some(at), None) => Outcome::stuck(format!("n = {n}: {at}")),
+        (None, _) => {
+            let (c, lambda) = (Interval::enclosing(&net.c), Interval::enclosing(&net.lambda));
+            let boxes = vec![CosineBox { only: Some(n), c, lambda }];
+            Outcome::Proved(EnclosedMap { valences: Valences::At(n), pieces, radius, patches: signs.patches, boxes })
+        }
+    })
+}
+
+/// What the limit functions on regular meshes are, or why that is not enough here.
+fn pieces(analyzer: &Analyzer) -> Result<Pieces, &'static str> {
+    if analyzer.steps() != 1 || analyzer.dilation() != 2 {
+        return Err("the lattice is not halved by each step");
+    }
+    let spline = analyzer.regular().ok().and_then(|regular| regular.spline.as_ref());
+    let pieces = spline.and_then(|spline| Pieces::of(spline, analyzer.lattice()));
+    pieces.ok_or("limit functions on regular meshes are not of a kind whose Bezier points are known here")
+}

@@ -1,0 +1,166 @@
+//! At which valences are limit surfaces C1?
+//!
+//! The first ones are judged one by one ([`super::verdicts`]), the others by one proof for all of them ([`crate::proof::c1::Proofs::tail`]).
+
+use super::{C1, Decision, Verdict, verdicts};
+use crate::proof::c1::Proofs;
+use crate::proof::outcome::Outcome;
+use crate::refine::Obstacle;
+use crate::scheme::RuleSum;
+use serde::Serialize;
+
+/// Valences one after the other with the same answer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Stretch {
+    /// The first.
+    pub from: usize,
+    /// The last; null where every one from the first on is meant.
+    pub to: Option<usize>,
+    /// Whether limit surfaces are C1 there, for generic control points.
+    pub verdict: Decision,
+    /// Reasons.
+    pub why: Vec<String>,
+}
+
+/// The answer for every valence, or for those asked for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EveryValence {
+    /// The answer in a sentence: "proved for every n >= 3".
+    pub statement: String,
+    /// In order; for every valence without gaps, from n = 3 on.
+    pub stretches: Vec<Stretch>,
+}
+
+/// So many valences are looked at one by one where no proof speaks of all from one on.
+const LAST_SINGLE: usize = 12;
+
+impl EveryValence {
+    /// Decides every valence. `known` gives verdicts that were found already.
+    ///
+    /// # Errors
+    /// When a weight has no value at a valence.
+    pub fn of(
+        proofs: &Proofs,
+        sums: &[RuleSum],
+        known: &dyn Fn(usize) -> Option<Vec<Verdict>>,
+    ) -> Result<EveryValence, Obstacle> {
+        let tail = proofs.tail(sums.iter().all(|sum| sum.identity));
+        let from = if matches!(tail.c1, Outcome::Undecided { .. }) { LAST_SINGLE + 1 } else { tail.from };
+        let mut stretches = singles(proofs, sums, &(3..from).collect::<Vec<_>>(), known)?;
+        let (verdict, why) = match tail.c1 {
+            Outcome::Proved(how) => (Decision::Proved, how),
+            Outcome::Refuted { witness } => (Decision::Refuted, witness),
+            Outcome::Undecided { at } => (Decision::Undecided, at),
+        };
+        stretches.push(Stretch { from, to: None, verdict, why: vec![why] });
+        Ok(EveryValence::told(stretches))
+    }
+
+    /// Decides these valences, one by one.
+    ///
+    /// # Errors
+    /// As [`EveryValence::of`].
+    pub fn only(proofs: &Proofs, sums: &[RuleSum], valences: &[usize]) -> Result<EveryValence, Obstacle> {
+        Ok(EveryValence::told(singles(proofs, sums, valences, &|_| None)?))
+    }
+
+    fn told(stretches: Vec<Stretch>) -> EveryValence {
+        EveryValence { statement: statement(&stretches), stretches }
+    }
+
+    /// Whether the answer is "proved" everywhere.
+    pub fn is_proved(&self) -> bool {
+        self.stretches.iter().all(|stretch| stretch.verdict == Decision::Proved)
+    }
+}
+
+fn singles(
+    proofs: &Proofs,
+    sums: &[RuleSum],
+    valences: &[usize],
+    known: &dyn Fn(usize) -> Option<Vec<Verdict>>,
+) -> Result<Vec<Stretch>, Obstacle> {
+    let mut stretches: Vec<Stretch> = Vec::new();
+    for n in valences.iter().copied() {
+        let found = match known(n) {
+            Some(found) => found,
+            None => {
+                let analysis = proofs.analyzer.at(n)?;
+                verdicts(&analysis, sums, &proofs.at(n, analysis.exact.as_ref().ok()))
+            }
+        };
+        for own in found.into_iter().filter(|own| own.claim == C1) {
+            push(&mut stretches, Stretch { from: n, to: Some(n), verdict: own.verdict, why: own.why });
+        }
+    }
+    Ok(stretches)
+}
+
+/// Adds a valence to the last stretch, if it comes next and that says the same.
+fn push(stretches: &mut Vec<Stretch>, own: Stretch) {
+    match stretches.last_mut() {
+        Some(last) if last.is_before(&own) && last.verdict == own.verdict && last.why == own.why => last.to = own.to,
+        _ => stretches.push(own),
+    }
+}
+
+impl Stretch {
+    /// Its valences in words.
+    pub fn valences(&self) -> String {
+        match self.to {
+            Some(to) if to == self.from => format!("n = {to}"),
+            Some(to) => format!("n = {}..{to}", self.from),
+            None => format!("every n >= {}", self.from),
+        }
+    }
+
+    fn is_before(&self, next: &Stretch) -> bool {
+        self.to.is_some_and(|to| to + 1 == next.from)
+    }
+}
+
+fn statement(stretches: &[Stretch]) -> String {
+    let told = [Decision::Proved, Decision::Refuted, Decision::Undecided].into_iter().filter_map(|verdict| {
+        let own = joined(stretches.iter().filter(|stretch| stretch.verdict == verdict));
+        let valences: Vec<String> = own.iter().map(Stretch::valences).collect();
+        (!own.is_empty()).then(|| format!("{} for {}", verdict.word(), valences.join(" and ")))
+    });
+    told.collect::<Vec<_>>().join("; ")
+}
+
+/// Neighbours as one.
+fn joined<'s>(stretches: impl Iterator<Item = &'s Stretch>) -> Vec<Stretch> {
+    let mut joined: Vec<Stretch> = Vec::new();
+    for stretch in stretches {
+        match joined.last_mut() {
+            Some(last) if last.is_before(stretch) => last.to = stretch.to,
+            _ => joined.push(stretch.clone()),
+        }
+    }
+    joined
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stretch(from: usize, to: Option<usize>, verdict: Decision, why: &str) -> Stretch {
+        Stretch { from, to, verdict, why: vec![why.to_string()] }
+    }
+
+    #[test]
+    fn statements_join_neighbours() {
+        use Decision::{Proved, Refuted, Undecided};
+        let say = |stretches: &[Stretch]| statement(stretches);
+        assert_eq!(say(&[stretch(3, Some(4), Proved, "a"), stretch(5, None, Proved, "b")]), "proved for every n >= 3");
+        let butterfly = [
+            stretch(3, Some(3), Refuted, "a"),
+            stretch(4, Some(7), Proved, "b"),
+            stretch(8, Some(8), Refuted, "c"),
+            stretch(9, None, Refuted, "d"),
+        ];
+        assert_eq!(say(&butterfly), "proved for n = 4..7; refuted for n = 3 and every n >= 8");
+        let open = [stretch(3, Some(3), Proved, "a"), stretch(4, None, Undecided, "b")];
+        assert_eq!(say(&open), "proved for n = 3; undecided for every n >= 4");
+    }
+}
