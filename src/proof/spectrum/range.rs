@@ -31,6 +31,9 @@ const RADIUS_BITS: u32 = 12;
 /// When a limit of size is passed.
 pub fn against_c1(forms: &AllValences) -> Result<Option<(usize, String)>, Trouble> {
     let Some(parts) = Parts::of(forms)? else { return Ok(None) };
+    if !parts.may_exclude()? {
+        return Ok(None);
+    }
     let holds = |first: &usize| *first >= forms.from && forms.except.is_none_or(|except| *first > except);
     for from in FIRST.into_iter().filter(holds) {
         let mut attempt = Attempt { parts: &parts, from, boxes: 0 };
@@ -79,6 +82,18 @@ impl Parts {
             forms.frequencies.iter().filter_map(|own| if let Which::Is(k) = own.which { Some(k) } else { None });
         Ok(Some(Parts { zero, first, others, general, singled: singled.max().unwrap_or(0) }))
     }
+
+    /// Whether, approximately, frequency 1 is not the largest as n tends to infinity.
+    fn may_exclude(&self) -> Result<bool, Trouble> {
+        let mut values = in_order(Number::whole(0), Number::whole(1));
+        let (first, zero) = (largest(self.first.iter(), &values)?, largest(self.zero.iter(), &values)?);
+        let mut most = zero;
+        for i in 1..8 {
+            values[C_K] = cosine(&part(i, 16))?;
+            most = most.zip(largest(self.general.iter(), &values)?).map(|(most, own)| most.max(own));
+        }
+        Ok(most.zip(first).is_some_and(|(most, first)| most > first + 1e-9))
+    }
 }
 
 struct Attempt<'a> {
@@ -92,7 +107,8 @@ impl Attempt<'_> {
     fn general_leads(&mut self) -> Result<Option<String>, Trouble> {
         let parts = self.parts;
         let rivals = || parts.zero.iter().chain(&parts.first);
-        let Some(most) = self.most(rivals())? else { return Ok(None) };
+        let Some(moduli) = self.moduli(rivals())? else { return Ok(None) };
+        let most = moduli.into_iter().fold(0.0, f64::max);
         let radius = rounded(most, RADIUS_BITS) + part(2, 1 << RADIUS_BITS);
         let Some((start, end)) = window(&parts.general, &radius)? else { return Ok(None) };
         let one = RBig::ONE;
@@ -122,7 +138,9 @@ impl Attempt<'_> {
     fn zero_leads(&mut self) -> Result<Option<String>, Trouble> {
         let parts = self.parts;
         let others = || parts.first.iter().chain(&parts.others);
-        let (Some(least), Some(most)) = (self.least(&parts.zero)?, self.most(others())?) else { return Ok(None) };
+        let moduli = (self.moduli(parts.zero.iter())?, self.moduli(others())?);
+        let (Some(zero), Some(moduli)) = moduli else { return Ok(None) };
+        let (least, most) = (zero.into_iter().fold(1.0, f64::min), moduli.into_iter().fold(0.0, f64::max));
         let radius = rounded(0.5 * (least + most), RADIUS_BITS);
         if least <= most || radius <= RBig::ZERO || radius >= RBig::ONE {
             return Ok(None);
@@ -158,30 +176,12 @@ impl Attempt<'_> {
         })
     }
 
-    /// The largest modulus of all roots at some valences, approximately.
-    fn most<'b>(&self, factors: impl Iterator<Item = &'b Univariate<Free>>) -> Result<Option<f64>, Trouble> {
-        let mut most: Option<f64> = Some(0.0);
-        for own in factors {
-            for values in self.samples()? {
-                let own = approx_largest_modulus(&own.mapped(|value| value.evaluate(&values))?);
-                most = most.zip(own).map(|(most, own)| most.max(own));
-            }
-        }
-        Ok(most)
-    }
-
-    /// The least at some valences of the largest modulus, approximately.
-    fn least(&self, factors: &[Univariate<Free>]) -> Result<Option<f64>, Trouble> {
-        let mut least: Option<f64> = Some(1.0);
-        for values in self.samples()? {
-            let mut most = Some(0.0);
-            for own in factors {
-                let own = approx_largest_modulus(&own.mapped(|value| value.evaluate(&values))?);
-                most = most.zip(own).map(|(most, own): (f64, f64)| most.max(own));
-            }
-            least = least.zip(most).map(|(least, most)| least.min(most));
-        }
-        Ok(least)
+    /// The largest modulus of all roots at each of some valences, approximately.
+    fn moduli<'b>(
+        &self,
+        factors: impl Iterator<Item = &'b Univariate<Free>> + Clone,
+    ) -> Result<Option<Vec<f64>>, Trouble> {
+        self.samples()?.iter().map(|values| largest(factors.clone(), values)).collect()
     }
 
     /// Values of t and c for t from 0 to the first 1/n.
@@ -243,6 +243,16 @@ impl Attempt<'_> {
             && self.one_is_outside((middle.clone(), to), radius, left - 1)?
             && self.one_is_outside((from, middle), radius, left - 1)?)
     }
+}
+
+/// The largest modulus of all roots, approximately.
+fn largest<'b>(factors: impl Iterator<Item = &'b Univariate<Free>>, values: &[Number]) -> Result<Option<f64>, Trouble> {
+    let mut most = Some(0.0_f64);
+    for own in factors {
+        let own = approx_largest_modulus(&own.mapped(|value| value.evaluate(values))?);
+        most = most.zip(own).map(|(most, own)| most.max(own));
+    }
+    Ok(most)
 }
 
 /// Whether just one root is outside a radius, real and below 1 in modulus.
