@@ -1,8 +1,8 @@
 //! Do all roots of a polynomial lie in an open disc, for every polynomial of a box?
 //!
-//! Schur (1918) and Cohn (1922), as a recursion: all roots of a monic p of degree d lie in |z| < 1 exactly when |p(0)| < 1
-//! and those of the polynomial with coefficients (a_i - a_0 a_(d-i))/(1 - a_0^2), i = 1..d, do. In enclosures the strict
-//! signs hold for every polynomial that is enclosed.
+//! Schur (1918) and Cohn (1922), as a recursion: all roots of a monic p of degree d lie in |z| < 1 exactly when
+//! |p(0)| < 1 and those of the polynomial with coefficients (a_i - a_0 a_(d-i))/(1 - a_0^2), i = 1..d, do. In
+//! enclosures the strict signs hold for every polynomial that is enclosed.
 
 use crate::numbers::{Enclosure, Field, Trouble, Univariate};
 use dashu_ratio::RBig;
@@ -26,7 +26,8 @@ pub fn is_negative(value: &Number) -> bool {
     value.sign() == Some(Ordering::Less)
 }
 
-/// Whether all roots of these monic polynomials have a modulus below a positive radius; `false` may mean that it was not seen.
+/// Whether all roots of these monic polynomials have a modulus below a positive radius; `false` may mean that it was
+/// not seen.
 ///
 /// # Errors
 /// When a number passes its limit of size.

@@ -64,7 +64,7 @@ pub fn prove(analyzer: &Analyzer) -> Orders {
     };
     match range::against_c1(forms) {
         Ok(Some((from, witness))) if is_effective(analyzer) => {
-            with_single(analyzer, from, forms.except.filter(|n| *n >= from), Outcome::Refuted { witness })
+            with_single(analyzer, from, None, Outcome::Refuted { witness })
         }
         _ => Orders { parts: vec![(Valences::From(3), Outcome::stuck(stuck))] },
     }

@@ -1,14 +1,15 @@
 //! Which spectra exclude C1 for every valence from one on?
 //!
-//! A radius r parts the eigenvalues after 1: those of the frequencies 0 and 1 are below r for every n, and some frequency
-//! k >= 2 has one above, since its c_k lies in a window of cosines where one is. Or those of frequency 0 are below r but for
-//! one that is real and simple, and so are all of other frequencies. Proved in docs/theory.md; enclosures decide.
+//! A radius r parts the eigenvalues after 1: those of the frequencies 0 and 1 are below r for every n, and some
+//! frequency k >= 2 has one above, since its c_k lies in a window of cosines where one is. Or those of frequency 0
+//! are below r but for one that is real and simple, and so are all of other frequencies. Proved in docs/theory.md;
+//! enclosures decide.
 
 use super::branch::{approx_largest_modulus, at_variable, rounded};
 use super::disc::{Number, all_within, between, deflated, is_negative};
 use super::parts::{cosine, depends_on_others, frequencies, in_order, in_t, one};
 use super::tail::FIRST;
-use crate::analysis::exact::formulas::{AllValences, Which};
+use crate::analysis::exact::formulas::{AllValences, FrequencyForms, Which};
 use crate::numbers::{C, C_K, Field, Free, Trouble, Univariate};
 use dashu_ratio::RBig;
 
@@ -16,6 +17,8 @@ use dashu_ratio::RBig;
 const MOST_HALVINGS: usize = 14;
 /// The most boxes of an attempt.
 const MOST_BOXES: usize = 4000;
+/// The most halvings of a step of a window.
+const WINDOW_HALVINGS: usize = 5;
 /// Windows of k/n have ends that are multiples of 1/STEPS.
 const STEPS: usize = 96;
 /// Radii are multiples of 2^-RADIUS_BITS.
@@ -28,7 +31,11 @@ const RADIUS_BITS: u32 = 12;
 /// When a limit of size is passed.
 pub fn against_c1(forms: &AllValences) -> Result<Option<(usize, String)>, Trouble> {
     let Some(parts) = Parts::of(forms)? else { return Ok(None) };
-    for from in FIRST.into_iter().filter(|first| *first >= forms.from) {
+    if !parts.may_exclude()? {
+        return Ok(None);
+    }
+    let holds = |first: &usize| *first >= forms.from && forms.except.is_none_or(|except| *first > except);
+    for from in FIRST.into_iter().filter(holds) {
         let mut attempt = Attempt { parts: &parts, from, boxes: 0 };
         let found = match attempt.general_leads()? {
             None => attempt.zero_leads()?,
@@ -41,7 +48,8 @@ pub fn against_c1(forms: &AllValences) -> Result<Option<(usize, String)>, Troubl
     Ok(None)
 }
 
-/// The factors of the characteristic polynomials in t, at the place of n, and c, but for general ones in c_k.
+/// The factors of the characteristic polynomials, each as often as it stands there, in t, at the place of n, and c; general
+/// ones in c_k.
 struct Parts {
     zero: Vec<Univariate<Free>>,
     first: Vec<Univariate<Free>>,
@@ -59,8 +67,8 @@ impl Parts {
         if general.iter().any(|own| depends_on_others(own, C_K)) {
             return Ok(None);
         }
-        let all = |own: &crate::analysis::exact::formulas::FrequencyForms| {
-            let factors = own.forms.iter().map(|form| &form.polynomial);
+        let all = |own: &FrequencyForms| {
+            let factors = own.forms.iter().flat_map(|form| std::iter::repeat_n(&form.polynomial, form.multiplicity));
             factors.map(|own| own.mapped(in_t)).collect::<Result<Vec<_>, _>>()
         };
         let with_c = |own: &Free| own.substituted(C_K, &Free::variable(C));
@@ -73,6 +81,18 @@ impl Parts {
         let singled =
             forms.frequencies.iter().filter_map(|own| if let Which::Is(k) = own.which { Some(k) } else { None });
         Ok(Some(Parts { zero, first, others, general, singled: singled.max().unwrap_or(0) }))
+    }
+
+    /// Whether, approximately, frequency 1 is not the largest as n tends to infinity.
+    fn may_exclude(&self) -> Result<bool, Trouble> {
+        let mut values = in_order(Number::whole(0), Number::whole(1));
+        let (first, zero) = (largest(self.first.iter(), &values)?, largest(self.zero.iter(), &values)?);
+        let mut most = zero;
+        for i in 1..8 {
+            values[C_K] = cosine(&part(i, 16))?;
+            most = most.zip(largest(self.general.iter(), &values)?).map(|(most, own)| most.max(own));
+        }
+        Ok(most.zip(first).is_some_and(|(most, first)| most > first + 1e-9))
     }
 }
 
@@ -87,7 +107,8 @@ impl Attempt<'_> {
     fn general_leads(&mut self) -> Result<Option<String>, Trouble> {
         let parts = self.parts;
         let rivals = || parts.zero.iter().chain(&parts.first);
-        let Some(most) = self.most(rivals())? else { return Ok(None) };
+        let Some(moduli) = self.moduli(rivals())? else { return Ok(None) };
+        let most = moduli.into_iter().fold(0.0, f64::max);
         let radius = rounded(most, RADIUS_BITS) + part(2, 1 << RADIUS_BITS);
         let Some((start, end)) = window(&parts.general, &radius)? else { return Ok(None) };
         let one = RBig::ONE;
@@ -117,7 +138,9 @@ impl Attempt<'_> {
     fn zero_leads(&mut self) -> Result<Option<String>, Trouble> {
         let parts = self.parts;
         let others = || parts.first.iter().chain(&parts.others);
-        let (Some(least), Some(most)) = (self.least(&parts.zero)?, self.most(others())?) else { return Ok(None) };
+        let moduli = (self.moduli(parts.zero.iter())?, self.moduli(others())?);
+        let (Some(zero), Some(moduli)) = moduli else { return Ok(None) };
+        let (least, most) = (zero.into_iter().fold(1.0, f64::min), moduli.into_iter().fold(0.0, f64::max));
         let radius = rounded(0.5 * (least + most), RADIUS_BITS);
         if least <= most || radius <= RBig::ZERO || radius >= RBig::ONE {
             return Ok(None);
@@ -153,30 +176,12 @@ impl Attempt<'_> {
         })
     }
 
-    /// The largest modulus of all roots at some valences, approximately.
-    fn most<'b>(&self, factors: impl Iterator<Item = &'b Univariate<Free>>) -> Result<Option<f64>, Trouble> {
-        let mut most: Option<f64> = Some(0.0);
-        for own in factors {
-            for values in self.samples()? {
-                let own = approx_largest_modulus(&own.mapped(|value| value.evaluate(&values))?);
-                most = most.zip(own).map(|(most, own)| most.max(own));
-            }
-        }
-        Ok(most)
-    }
-
-    /// The least at some valences of the largest modulus, approximately.
-    fn least(&self, factors: &[Univariate<Free>]) -> Result<Option<f64>, Trouble> {
-        let mut least: Option<f64> = Some(1.0);
-        for values in self.samples()? {
-            let mut most = Some(0.0);
-            for own in factors {
-                let own = approx_largest_modulus(&own.mapped(|value| value.evaluate(&values))?);
-                most = most.zip(own).map(|(most, own): (f64, f64)| most.max(own));
-            }
-            least = least.zip(most).map(|(least, most)| least.min(most));
-        }
-        Ok(least)
+    /// The largest modulus of all roots at each of some valences, approximately.
+    fn moduli<'b>(
+        &self,
+        factors: impl Iterator<Item = &'b Univariate<Free>> + Clone,
+    ) -> Result<Option<Vec<f64>>, Trouble> {
+        self.samples()?.iter().map(|values| largest(factors.clone(), values)).collect()
     }
 
     /// Values of t and c for t from 0 to the first 1/n.
@@ -240,6 +245,16 @@ impl Attempt<'_> {
     }
 }
 
+/// The largest modulus of all roots, approximately.
+fn largest<'b>(factors: impl Iterator<Item = &'b Univariate<Free>>, values: &[Number]) -> Result<Option<f64>, Trouble> {
+    let mut most = Some(0.0_f64);
+    for own in factors {
+        let own = approx_largest_modulus(&own.mapped(|value| value.evaluate(values))?);
+        most = most.zip(own).map(|(most, own)| most.max(own));
+    }
+    Ok(most)
+}
+
 /// Whether just one root is outside a radius, real and below 1 in modulus.
 fn is_outside(boxed: &Univariate<Number>, radius: &RBig) -> Result<bool, Trouble> {
     if !all_within(boxed, &Number::whole(1))? {
@@ -260,9 +275,7 @@ fn window(general: &[Univariate<Free>], radius: &RBig) -> Result<Option<(usize, 
     for own in general {
         let mut start = 1;
         for i in 1..STEPS / 2 {
-            let (first, last) = (cosine(&part(i, STEPS))?, cosine(&part(i + 1, STEPS))?);
-            let value = at_variable(own, C_K, &first.hull(&last))?.evaluate(&Number::rational(radius))?;
-            if !is_negative(&value) {
+            if !has_root_above(own, radius, (part(i, STEPS), part(i + 1, STEPS)), WINDOW_HALVINGS)? {
                 start = i + 1;
             } else if longest.is_none_or(|(low, high)| i + 1 - start > high - low) && i + 1 < STEPS / 2 {
                 longest = Some((start, i + 1));
@@ -270,6 +283,23 @@ fn window(general: &[Univariate<Free>], radius: &RBig) -> Result<Option<(usize, 
         }
     }
     Ok(longest)
+}
+
+/// Whether a monic polynomial has a root above a radius for every k/n in a box: it is negative there.
+fn has_root_above(
+    own: &Univariate<Free>,
+    radius: &RBig,
+    (from, to): (RBig, RBig),
+    left: usize,
+) -> Result<bool, Trouble> {
+    let cosines = cosine(&from)?.hull(&cosine(&to)?);
+    if is_negative(&at_variable(own, C_K, &cosines)?.evaluate(&Number::rational(radius))?) {
+        return Ok(true);
+    }
+    let middle = (&from + &to) / RBig::from(2);
+    Ok(left > 0
+        && has_root_above(own, radius, (from, middle.clone()), left - 1)?
+        && has_root_above(own, radius, (middle, to), left - 1)?)
 }
 
 /// A polynomial in t and c, enclosed for every t in a box.

@@ -1,31 +1,32 @@
 //! Which spectra exclude that limits are C1 at the extraordinary point?
 //!
-//! Near it generic limits look like their leading eigenfunctions: those of the largest modulus after 1 that have the largest Jordan blocks among these.
-//! Are there three or more, secants fill the space and no plane is tangent. Are all of one frequency k other than 0, 1, n-1, the surface passes its
-//! tangent plane in another cyclic order than that of its sectors. Are all of frequency 0, it lies along a half line. Proofs in docs/theory.md; the
-//! first reasons of this kind are in Peters and Reif (1998) and Zorin (2000).
+//! Near it generic limits look like their leading eigenfunctions: those of the largest modulus after 1 that have the
+//! largest Jordan blocks among these. If there are three or more, secants fill the space and no plane is tangent. If
+//! all are of one frequency k other than 0, 1, n-1, the surface passes its tangent plane in another cyclic order than
+//! that of its sectors. If there is one of frequency 0 alone, it lies along a half line. Proofs are in
+//! docs/theory.md; the first reasons of this kind are in Peters and Reif (1998) and Zorin (2000).
 
 use crate::analysis::Analyzer;
 use crate::analysis::exact::{ExactAnalysis, ExactEigenvalue};
 use std::cmp::Ordering;
 
-/// Whether no eigenvector of an eigenvalue other than 0 has the limit 0, as far as that is known: control points are limit points, or they are the
-/// coefficients of a box spline with linearly independent shifts.
+/// Whether no eigenvector of an eigenvalue other than 0 has the limit 0, as far as that is known: control points are
+/// limit points, or they are the coefficients of a box spline with linearly independent shifts.
 pub fn is_effective(analyzer: &Analyzer) -> bool {
     let spline = analyzer.regular().ok().and_then(|regular| regular.spline.as_ref());
     analyzer.scheme().is_interpolating() || spline.is_some_and(|spline| spline.is_independent())
 }
 
-/// Why limits of generic data are not C1 at the extraordinary point of this valence, if the spectrum tells so. It is told for schemes that are
-/// effective, see [`is_effective`]; a frequency 0 that leads alone is against C1 unless its eigenfunction vanishes somewhere on every curve around the point
-/// and never changes its sign.
+/// Why limits of generic data are not C1 at the extraordinary point of this valence, if the spectrum tells so. It is
+/// told for schemes that are effective, see [`is_effective`]; leading eigenfunctions are supposed to vanish nowhere
+/// along a line into the point, or to change their sign, and their zeros on a ring to be of finitely many parts.
 pub fn against_c1(exact: &ExactAnalysis, valence: usize, effective: bool) -> Option<String> {
     let leading = leading(exact).filter(|_| effective)?;
     let first = leading.first()?;
     let alone = leading.iter().all(|e| e.frequency == first.frequency);
     let functions: usize = leading.iter().map(|e| functions(e, valence)).sum();
     match first.frequency {
-        0 if alone => Some(format!(
+        0 if alone && functions == 1 => Some(format!(
             "frequency 0 leads: after 1 its {} is larger in modulus than {}: limits lie along a half line",
             in_words(first),
             rest(exact, first)
@@ -44,7 +45,8 @@ pub fn against_c1(exact: &ExactAnalysis, valence: usize, effective: bool) -> Opt
     }
 }
 
-/// The eigenvalues of the largest modulus after 1 with the largest Jordan blocks; `None` where that is not decided or 1 doesn't lead.
+/// The eigenvalues of the largest modulus after 1 with the largest Jordan blocks; `None` where that is not decided or
+/// 1 doesn't lead.
 fn leading(exact: &ExactAnalysis) -> Option<Vec<&ExactEigenvalue>> {
     let (one, (first, e)) = (exact.one?, exact.after_one().next()?);
     if exact.compare_moduli(one, first)? != Ordering::Greater || !exact.certain[e.level] {
@@ -60,7 +62,8 @@ fn leading(exact: &ExactAnalysis) -> Option<Vec<&ExactEigenvalue>> {
     Some(sizes.into_iter().filter(|(size, _)| *size == largest).map(|(_, own)| own).collect())
 }
 
-/// At least so many real eigenfunctions of the leading kind an eigenvalue has: those of the frequencies k and n-k go together.
+/// At least so many real eigenfunctions of the leading kind an eigenvalue has: those of the frequencies k and n-k go
+/// together.
 fn functions(e: &ExactEigenvalue, valence: usize) -> usize {
     let blocks = e.structure.map_or(1, |structure| if structure.largest == 1 { structure.geometric } else { 1 });
     let real = e.frequency == 0 || 2 * e.frequency == valence;

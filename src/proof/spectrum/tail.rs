@@ -1,13 +1,13 @@
 //! Is the subdominant eigenvalue real, simple, of frequency 1, and larger than all others but 1, for every valence from
 //! one on?
 //!
-//! Boxes of the parameters that eigenvalues depend on ([`Parts`]) are halved until enclosures decide. General frequencies
-//! k >= 2 have the polynomials of frequency 1 at c_k < c in place of c: there is an increasing root ([`super::branch`]), and
-//! all others are below what lambda is at the first n. Frequency 0 may meet lambda as n tends to infinity: see [`Tie`]. The
-//! statement is proved in docs/theory.md.
+//! Boxes of the parameters that eigenvalues depend on ([`Parts`]) are halved until enclosures decide. General
+//! frequencies k >= 2 have the polynomials of frequency 1 at c_k < c in place of c: there is an increasing root
+//! ([`super::branch`]), and all others are below what lambda is at the first n. Frequency 0 may meet lambda as n
+//! tends to infinity: see [`Tie`]. The statement is proved in docs/theory.md.
 
-use super::branch::{Bounds, at_variable, rounded};
-use super::disc::{Number, all_within, between, is_positive};
+use super::branch::{Bounds, approx_largest, at_variable};
+use super::disc::{Number, all_within, between};
 use super::parts::{Found, Parts, cosine, in_order, named};
 use super::tie::Tie;
 use crate::analysis::exact::formulas::AllValences;
@@ -25,11 +25,9 @@ pub struct TailProof {
     pub low: RBig,
     /// Lambda is below this.
     pub high: RBig,
-    /// For c_k below this all eigenvalues of general frequencies are below `low`; from here to 1 the largest increases with
-    /// c_k, if this is less than 1.
-    pub split: RBig,
-    /// Below that largest one from `split` on.
-    pub rest: RBig,
+    /// The largest eigenvalue of general frequencies increases with c_k from here to 1, and before it is below `low`; none
+    /// where all of them are.
+    pub increases_from: Option<RBig>,
     /// Where frequency 0 meets lambda as n tends to infinity: the power of 1/n that their difference is like.
     pub tie_at_infinity: Option<usize>,
     /// How many boxes were looked at.
@@ -41,7 +39,9 @@ pub const FIRST: [usize; 13] = [4, 5, 6, 7, 8, 10, 12, 16, 20, 24, 32, 48, 64];
 /// The most halvings of a box.
 const MOST_HALVINGS: usize = 14;
 /// The most boxes of an attempt.
-const MOST_BOXES: usize = 500;
+const MOST_BOXES: usize = 1000;
+/// Steps from the first cosine to 1 at which the largest root is looked at before boxes are.
+const SAMPLES: usize = 4;
 /// Bounds of lambda are multiples of 2^-BOUND_BITS.
 const BOUND_BITS: u32 = 20;
 
@@ -81,6 +81,9 @@ impl Attempt<'_> {
             return Ok(Err(format!("lambda at n = {from} has no bound from below")));
         };
         let (end, one) = (cosine.lo_hi().0, RBig::ONE);
+        if !self.may_increase(&end)? {
+            return Ok(Err("the largest eigenvalue of frequency 1 does not increase with its cosine".to_string()));
+        }
         let start = if parts.is_general { -&one } else { end.clone() };
         let mut course = Course { increases_from: None, last: None, ended: false };
         if !self.course(&start, &one, &low, &mut course, MOST_HALVINGS)? {
@@ -104,11 +107,21 @@ impl Attempt<'_> {
                 return Ok(Err(format!("{} may have an eigenvalue as large as lambda", named(*which))));
             }
         }
-        let Some((split, rest)) = self.split(&first, &end, &low)? else {
-            return Ok(Err("no cosine parts small eigenvalues from increasing ones".to_string()));
-        };
+        let increases_from = parts.is_general.then_some(first);
         let (tie_at_infinity, boxes) = (self.tie, self.boxes);
-        Ok(Ok(TailProof { from, except: None, low, high: at_end.high, split, rest, tie_at_infinity, boxes }))
+        Ok(Ok(TailProof { from, except: None, low, high: at_end.high, increases_from, tie_at_infinity, boxes }))
+    }
+
+    /// Whether the largest root at samples, approximately, increases or is constant from a cosine to 1: else no box will do.
+    fn may_increase(&self, from: &RBig) -> Result<bool, Trouble> {
+        let step = (RBig::ONE - from) / RBig::from(SAMPLES);
+        let mut before = f64::NEG_INFINITY;
+        for i in 0..=SAMPLES {
+            let at = self.parts.branch.at(&Number::rational(&(from + &step * RBig::from(i))))?;
+            let Some(own) = approx_largest(&at).filter(|own| *own > before - 1e-9) else { return Ok(false) };
+            before = own;
+        }
+        Ok(true)
     }
 
     /// Whether lambda tends to 1, from below: 1 is the root between the bounds at c = 1, and lambda increases with c.
@@ -118,20 +131,6 @@ impl Attempt<'_> {
         let last = branch.polynomial().mapped(|value| value.evaluate(&vec![one.clone(); 6]))?;
         let inside = bounds.low < RBig::ONE && RBig::ONE < bounds.high;
         Ok(inside && !branch.is_constant() && last.evaluate(&one)?.is_certainly_zero())
-    }
-
-    /// A cosine at which the increasing root is still below `low`, and a number below it.
-    fn split(&self, first: &RBig, end: &RBig, low: &RBig) -> Result<Option<(RBig, RBig)>, Trouble> {
-        if !self.parts.is_general {
-            return Ok(Some((RBig::ONE, low.clone())));
-        }
-        let middle = (first + end) / RBig::from(2);
-        let split = middle.max(RBig::from(-1) / RBig::from(2)).max(first.clone());
-        let split = rounded(split.to_f64().value(), 6).max(first.clone());
-        let at = Number::rational(&split);
-        let value = self.parts.branch.at(&at)?.evaluate(&Number::rational(low))?;
-        let rest = self.parts.branch.below(&at, BOUND_BITS)?;
-        Ok(rest.filter(|_| is_positive(&value)).map(|rest| (split, rest)))
     }
 
     fn counted(&mut self) -> bool {
@@ -159,12 +158,12 @@ impl Attempt<'_> {
             course.ended = true;
             return Ok(true);
         }
-        if !course.ended {
-            if let Some(bounds) = branch.increasing(from, to)? {
-                course.increases_from = Some(from.clone());
-                course.last.get_or_insert(bounds);
-                return Ok(true);
-            }
+        if !course.ended
+            && let Some(bounds) = branch.increasing(from, to, self.parts.is_general)?
+        {
+            course.increases_from = Some(from.clone());
+            course.last.get_or_insert(bounds);
+            return Ok(true);
         }
         if left == 0 {
             return Ok(false);
@@ -215,11 +214,11 @@ impl Attempt<'_> {
             if all_within(&boxed, &Number::rational(&low))? {
                 return Ok(true);
             }
-            if from.is_zero() {
-                if let Some(power) = (Tie { branch, own, to, low: &low, high }).power(&boxed)? {
-                    self.tie = self.tie.max(Some(power));
-                    return Ok(true);
-                }
+            if from.is_zero()
+                && let Some(power) = (Tie { branch, own, to, low: &low, high }).power(&boxed)?
+            {
+                self.tie = self.tie.max(Some(power));
+                return Ok(true);
             }
         }
         if left == 0 {

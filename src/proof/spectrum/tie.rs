@@ -26,9 +26,9 @@ pub struct Tie<'a> {
 }
 
 impl Tie<'_> {
-    /// The power of t that F(lambda) is like, if all roots of F are below lambda for t > 0 in the box: F has just one root
-    /// of modulus `low` or more, F_x is positive from `least` on, F(least) < 0, and F(lambda)/t^power is positive. `boxed`
-    /// encloses F on the box.
+    /// The power of t that F(lambda) is like, if all roots of F are below lambda for t > 0 in the box: F has just one
+    /// root of modulus `low` or more, F_x is positive from `least` on, F(least) < 0, and F(lambda)/t^power is
+    /// positive. `boxed` encloses F on the box.
     ///
     /// # Errors
     /// When a limit of size is passed.

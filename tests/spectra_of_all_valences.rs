@@ -1,0 +1,213 @@
+//! Is the order of the eigenvalues proved for every valence where it holds, refuted where it excludes C1, and is nothing
+//! wrong accepted?
+#![allow(clippy::unwrap_used)]
+
+use eigenring::analysis::Analyzer;
+use eigenring::analysis::spectra::Spectra;
+use eigenring::proof::outcome::{Outcome, Valences};
+use eigenring::proof::spectrum::order::misses;
+use eigenring::proof::spectrum::{Order, Orders, prove};
+use eigenring::scheme::{Scheme, catalogue};
+use proptest::prelude::*;
+
+/// Proved for every n, as in the literature: Zorin (2000), Peters and Reif (1998), Zorin and Schroeder (2001).
+const C1: [&str; 7] = [
+    "loop",
+    "loop-warren",
+    "catmull-clark",
+    "doo-sabin",
+    "catmull-clark-biquadratic",
+    "modified-butterfly",
+    "midpoint",
+];
+
+fn open(id: &str) -> Scheme {
+    catalogue::open(id).unwrap().unwrap()
+}
+
+/// A scheme of the catalogue with other words in its file, without claims.
+fn with(id: &str, changes: &[(&str, &str)]) -> Scheme {
+    let mut text = catalogue::scheme(id).unwrap().text.split("[[claims]]").next().unwrap().to_string();
+    for (old, new) in changes {
+        assert!(text.contains(old), "{id}: {old}");
+        text = text.replace(old, new);
+    }
+    Scheme::parse("own", "own.toml", &text).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+/// Loop's scheme with another sum of the weights at the vertex, but for n = 6: frequency 0 has 5/8 less this, frequency k
+/// has 3/8 + c_k/4.
+fn loop_with(total: &str) -> Scheme {
+    let beta = "[let]\nbeta = \"(5/8 - (3/8 + cos(2*pi/n)/4)^2)/n\"";
+    with("loop", &[(beta, &format!("[let.beta]\n\"n == 6\" = \"1/16\"\n\"n != 6\" = \"({total})/n\""))])
+}
+
+/// A dual scheme on polygons whose frequency 1 has the eigenvalue `first`, and all from 2 on `others`; 1/4 follows.
+fn dual_with(first: &str, others: &str) -> Scheme {
+    let ring = format!("(1 - ({others}) + 2*(({first}) - ({others}))*cos(2*pi*j/n))/n");
+    let own = [("\"(3 + 2*cos(2*pi*j/n))/(4*n)\"", format!("\"{ring}\"")), ("\"1/4\"", format!("\"{others}\""))];
+    let changes: Vec<(&str, &str)> = own.iter().map(|(old, new)| (*old, new.as_str())).collect();
+    with("doo-sabin", &changes)
+}
+
+fn orders(scheme: &Scheme) -> Orders {
+    prove(&Analyzer::new(scheme).unwrap())
+}
+
+fn is_proved(orders: &Orders, n: usize) -> bool {
+    matches!(orders.at(n), Outcome::Proved(_))
+}
+
+fn is_refuted(orders: &Orders, n: usize) -> bool {
+    matches!(orders.at(n), Outcome::Refuted { .. })
+}
+
+#[test]
+fn the_order_of_known_schemes_is_proved_for_every_valence() {
+    for id in C1 {
+        let found = orders(&open(id));
+        assert!(found.hold_everywhere(), "{id}: {found:?}");
+        assert!((3..200).all(|n| is_proved(&found, n)), "{id}: {found:?}");
+        assert!(matches!(found.parts.last(), Some((Valences::From(n), _)) if *n <= 5), "{id}: {found:?}");
+    }
+}
+
+/// Only of Catmull and Clark's rules of degree 3 the frequencies 0 and 1 have eigenvalues that meet: (3 + sqrt 5)/8.
+#[test]
+fn frequency_0_meets_lambda_at_infinity_where_it_does() {
+    for id in C1 {
+        let found = orders(&open(id));
+        assert_eq!(found.tail().unwrap().tie_at_infinity.is_some(), id == "catmull-clark", "{id}");
+    }
+}
+
+/// The midpoint schemes of other degrees.
+#[test]
+fn midpoint_schemes_of_low_degree_are_proved() {
+    for d in ["2", "4", "5"] {
+        let found = orders(&open("midpoint").with_value("d", d).unwrap());
+        assert!(found.hold_everywhere(), "{d}: {found:?}");
+    }
+}
+
+/// What a tail says against the exact analysis, which shares no step with it but the rows, and against floating numbers.
+#[test]
+fn tails_agree_with_other_ways() {
+    for id in C1 {
+        let scheme = open(id);
+        let analyzer = Analyzer::new(&scheme).unwrap();
+        let found = prove(&analyzer);
+        let tail = found.tail().unwrap();
+        for n in [tail.from, 12, 20] {
+            let exact = analyzer.at(n).unwrap().exact.unwrap();
+            assert_eq!(misses(&exact), None, "{id} {n}");
+            let (least, most) = exact.eigenvalues[exact.lambda.unwrap()].re.lo_hi();
+            assert!(tail.low < least && most < tail.high, "{id} {n}");
+        }
+        let spectra = Spectra::new(&scheme).unwrap();
+        for n in [50, 101] {
+            let spectrum = spectra.at(n).unwrap();
+            let lambda = spectrum.subdominant().unwrap();
+            assert!(lambda.frequency == 1 && lambda.is_isolated() && lambda.multiplicity(n) == 2, "{id} {n}");
+            let value = lambda.real().unwrap();
+            assert!(tail.low.to_f64().value() < value && value < tail.high.to_f64().value(), "{id} {n}");
+            assert!(spectrum.after_subdominant().all(|e| e.modulus() < value - 1e-9), "{id} {n}");
+            let tops = |k: usize| spectrum.largest_of(k).and_then(|e| e.real());
+            let from = tail.increases_from.as_ref().map(|from| from.to_f64().value());
+            for k in 2..n / 2 {
+                let cosine = |k: usize| (std::f64::consts::TAU * k as f64 / n as f64).cos();
+                if from.is_some_and(|from| cosine(k) > from) {
+                    assert!(tops(k).unwrap() < tops(k - 1).unwrap(), "{id} {n} {k}");
+                } else {
+                    assert!(spectrum.largest_of(k).unwrap().modulus() < tail.low.to_f64().value(), "{id} {n} {k}");
+                }
+            }
+        }
+    }
+}
+
+/// Zorin (2000): Dyn, Levin and Gregory's scheme is C1 at 4 <= n <= 7 only.
+#[test]
+fn the_butterfly_is_refuted_from_8_on() {
+    let found = orders(&open("butterfly"));
+    assert!(is_refuted(&found, 3) && (4..=7).all(|n| is_proved(&found, n)), "{found:?}");
+    assert!((8..300).all(|n| is_refuted(&found, n)), "{found:?}");
+    assert!(matches!(found.parts.last(), Some((Valences::From(8), Outcome::Refuted { .. }))), "{found:?}");
+}
+
+/// Warren (1995) has a weight of its own at n = 3: with 3/(8 n) frequency 0 ties with frequency 1, both 1/4.
+#[test]
+fn a_tie_at_one_valence_is_seen_there() {
+    let found = orders(&with("loop-warren", &[("\"n == 3\" = \"3/16\"", ""), ("\"n > 3\"", "\"n >= 3\"")]));
+    assert!(is_refuted(&found, 3) && (4..100).all(|n| is_proved(&found, n)), "{found:?}");
+}
+
+/// A weight that is wrong at n = 9 only.
+#[test]
+fn a_wrong_weight_at_one_valence_is_seen_there() {
+    let beta = "[let]\nbeta = \"(5/8 - (3/8 + cos(2*pi/n)/4)^2)/n\"";
+    let own = "[let.beta]\n\"n == 9\" = \"13/90\"\n\"n != 9\" = \"(5/8 - (3/8 + cos(2*pi/n)/4)^2)/n\"";
+    let found = orders(&with("loop", &[(beta, own)]));
+    assert!(is_refuted(&found, 9), "{found:?}");
+    assert!((3..100).all(|n| n == 9 || is_proved(&found, n)), "{found:?}");
+}
+
+/// 5/8 - 13/10 = -27/40 is larger in modulus than all 3/8 + c/4; 5/8 - 1/100 is up to n = 22: cos(2 pi/22) < 24/25.
+#[test]
+fn frequency_0_leads_at_all_valences_or_at_the_first() {
+    let large = orders(&loop_with("13/10"));
+    assert!((3..300).all(|n| is_refuted(&large, n) == (n != 6)) && is_proved(&large, 6), "{large:?}");
+    let small = orders(&loop_with("1/100"));
+    let is_right = |n: usize| if n < 23 && n != 6 { is_refuted(&small, n) } else { is_proved(&small, n) };
+    assert!((3..300).all(is_right), "{small:?}");
+}
+
+/// 5/8 - x/(4 n^2) is below 5/8 - (1 - c)/4 for every n exactly if x >= 2 pi^2 = 19.739...
+#[test]
+fn a_tie_at_infinity_is_decided_by_its_second_term() {
+    let found = orders(&loop_with("5/n^2"));
+    assert!(found.hold_everywhere() && found.tail().unwrap().tie_at_infinity == Some(2), "{found:?}");
+    let found = orders(&loop_with("(49/10)/n^2"));
+    assert!((20..300).all(|n| !is_proved(&found, n)), "{found:?}");
+}
+
+/// All frequencies from 2 on are alike: with frequency 1, or larger; at n = 3 there are none.
+#[test]
+fn an_eigenvalue_that_does_not_depend_on_its_frequency_is_no_proof() {
+    for (first, others) in [("1/3", "1/3"), ("1/3", "2/5")] {
+        let found = orders(&dual_with(first, others));
+        assert!((4..100).all(|n| !is_proved(&found, n)), "{first} {others}: {found:?}");
+    }
+    let found = orders(&dual_with("2/5", "1/3"));
+    assert!(found.hold_everywhere(), "{found:?}");
+}
+
+/// The shifts of mid-edge's box spline are dependent, and at n = 3 lambda has a Jordan block: undecided there.
+#[test]
+fn mid_edge_is_proved_but_at_3() {
+    let found = orders(&open("mid-edge"));
+    assert!(matches!(found.at(3), Outcome::Undecided { .. }), "{found:?}");
+    assert!(matches!(found.at(4), Outcome::Proved(Order::AtOnce(_))), "{found:?}");
+    assert!(found.tail().unwrap().high > dashu_ratio::RBig::ONE);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// Not C1 but at n = 6: |5/8 - total| >= 5/8 is larger than all of frequency 1.
+    #[test]
+    fn weights_that_are_too_large_or_negative_are_never_accepted(above in 1_i64..40, below in 1_i64..9, sign in 0..2) {
+        let total = if sign == 0 { format!("5/4 + {above}/{}", 40 * below) } else { format!("-{above}/{}", 40 * below) };
+        let found = orders(&loop_with(&total));
+        prop_assert!((3..40).filter(|n| *n != 6).all(|n| !is_proved(&found, n)), "{found:?}");
+    }
+
+    /// Not C1 from n = 4 on: those of frequencies from 2 on are at least as large as that of frequency 1.
+    #[test]
+    fn frequencies_from_2_on_that_lead_are_never_accepted(first in -40_i64..41, more in 0_i64..41) {
+        let others = (first.abs() + more).clamp(11, 39);
+        prop_assume!(first.abs() <= others);
+        let found = orders(&dual_with(&format!("{first}/40"), &format!("{others}/40")));
+        prop_assert!((4..40).all(|n| !is_proved(&found, n)), "{found:?}");
+    }
+}
