@@ -1,6 +1,7 @@
 //! `certify`: are limit surfaces C1, proved for every valence?
 
 use super::analyze::explain;
+use super::certificate::write;
 use super::open::open;
 use super::valences::Valences;
 use super::{Failure, print};
@@ -11,12 +12,13 @@ use eigenring::refine;
 use eigenring::scheme::Scheme;
 use eigenring::verdicts::EveryValence;
 use std::fmt::Write;
+use std::path::PathBuf;
 
 /// Decides whether limit surfaces are C1 at extraordinary points, for generic control points: proved, refuted, or undecided with
 /// the place where the proof got stuck.
 #[derive(Args)]
 #[command(after_help = "Exit status 1: it is not proved at every valence asked for.\n\n\
-    Examples:\n  eigenring certify loop\n  eigenring certify my-scheme.toml --set w=1/32\n  eigenring certify butterfly --valence 3..8")]
+    Examples:\n  eigenring certify loop\n  eigenring certify my-scheme.toml --set w=1/32\n  eigenring certify butterfly --valence 3..8\n  eigenring certify loop --certificate loop.json")]
 pub(crate) struct Certify {
     /// A scheme of the catalogue, or the path of a scheme file
     scheme: String,
@@ -29,6 +31,9 @@ pub(crate) struct Certify {
     /// Set a parameter of the scheme, for example w=1/32; may be given several times
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Write a certificate for every valence, which `eigenring check` checks again
+    #[arg(long, value_name = "FILE", conflicts_with = "valence")]
+    certificate: Option<PathBuf>,
 }
 
 /// Valences at which rules are checked where none are asked for.
@@ -43,6 +48,9 @@ impl Certify {
             let _ = writeln!(text, "  {}: {}; {}", stretch.valences(), stretch.verdict.word(), stretch.why.join("; "));
         }
         print(&text)?;
+        if let Some(path) = self.certificate.as_ref().filter(|_| found.is_proved()) {
+            print(&write(&self.scheme, &scheme, path)?)?;
+        }
         if found.is_proved() { Ok(()) } else { Err(Failure::No) }
     }
 

@@ -5,7 +5,9 @@
 
 mod analyze;
 mod catalogue;
+mod certificate;
 mod certify;
+mod check;
 mod claims;
 mod curve;
 mod grid;
@@ -30,6 +32,7 @@ const EXAMPLES: &str = "Examples:
   eigenring schemes loop                           one of their files, ready to copy and edit
   eigenring claims                                 every claim of the literature: holds, fails, undecided
   eigenring certify loop                           what is proved for every valence at once
+  eigenring check loop.json --scheme loop          a certificate of such a proof, checked again
   eigenring new my-scheme --like loop              start a scheme file
   eigenring matrix loop --valence 5 --block 1      a block of the local subdivision matrix
   eigenring refine loop in.obj -o out.ply -l 3     a mesh, refined three times
@@ -38,7 +41,7 @@ const EXAMPLES: &str = "Examples:
   eigenring analyze four-point --set w=1/16        a scheme for curves
   eigenring refine chaikin in.csv -o out.svg -l 5  a polygon
 
-Exit status: 0 done, 1 a check says no (verify, claims), 2 bad usage or bad input.";
+Exit status: 0 done, 1 a check says no (verify, claims, check), 2 bad usage or bad input.";
 
 /// Analyses subdivision schemes: local matrices at any valence, spectra, masks, characteristic maps, smoothness conditions.
 #[derive(Parser)]
@@ -58,6 +61,8 @@ enum Command {
     Claims(claims::Claims),
     /// Prove what can be proved for every valence at once
     Certify(certify::Certify),
+    /// Check a certificate of such a proof again, independently
+    Check(check::Check),
     /// Start a scheme file of your own
     New(catalogue::New),
     /// Print the local subdivision matrix of a scheme, or a block of it
@@ -112,6 +117,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Schemes(command) => command.run(),
         Command::Claims(command) => command.run(),
         Command::Certify(command) => command.run(),
+        Command::Check(command) => command.run(),
         Command::New(command) => command.run(),
         Command::Matrix(command) => command.run(),
         Command::Refine(command) => command.run(),

@@ -148,6 +148,14 @@ fn short_name(path: &str) -> String {
     if name.is_empty() { "scheme".to_string() } else { name }
 }
 
+/// The text of the file of a scheme, of the catalogue or of a path.
+pub(crate) fn text(name: &str) -> Result<String, Failure> {
+    match catalogue::all().find(|listed| listed.id == name) {
+        Some(listed) => Ok(listed.text.to_string()),
+        None => read(name),
+    }
+}
+
 fn read(name: &str) -> Result<String, Failure> {
     let path = Path::new(name);
     if path.is_dir() {

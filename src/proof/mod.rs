@@ -13,6 +13,7 @@
 pub mod b_spline;
 pub mod boxes;
 pub mod c1;
+pub mod certificate;
 pub mod course;
 pub mod derivative;
 pub mod enclosed_net;

@@ -1,0 +1,13 @@
+//! `eigenring-check CERTIFICATE [SCHEME]`: exit status 0 accepted, 1 rejected, 2 not checkable or not readable.
+
+use eigenring_check::{check, read};
+use std::io::Write;
+
+fn main() -> std::process::ExitCode {
+    let texts: Result<Vec<String>, _> = std::env::args().skip(1).map(|path| read(path.as_ref())).collect();
+    let checked = texts.and_then(|own| check(own.first().map_or("", |own| own), own.get(1).map(|own| own.as_str())));
+    let accepted = checked.map(|from| (format!("accepted: C1 for every n >= {from}"), 0));
+    let (words, status) = accepted.unwrap_or_else(|refusal| (refusal.why, refusal.status));
+    let _ = writeln!(std::io::stdout(), "{words}");
+    status.into()
+}
