@@ -1,18 +1,17 @@
 //! `certify`: are limit surfaces C1, proved for every valence?
 
 use super::analyze::explain;
-use super::certificate::write;
 use super::open::open;
 use super::valences::Valences;
-use super::{Failure, print};
+use super::{Failure, failure, print};
 use clap::Args;
 use eigenring::analysis::Analyzer;
 use eigenring::proof::c1::Proofs;
 use eigenring::refine;
-use eigenring::scheme::Scheme;
+use eigenring::report::{certificate, write_whole};
 use eigenring::verdicts::EveryValence;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Decides whether limit surfaces are C1 at extraordinary points, for generic control points: proved, refuted, or undecided with
 /// the place where the proof got stuck.
@@ -42,27 +41,34 @@ const CHECKED: std::ops::RangeInclusive<usize> = 3..=12;
 impl Certify {
     pub(crate) fn run(self) -> Result<(), Failure> {
         let scheme = open(&self.scheme, &self.set)?;
-        let found = self.found(&scheme)?;
-        let mut text = format!("{}\n  C1 for generic control points: {}\n", scheme.book.title, found.statement);
-        for stretch in &found.stretches {
-            let _ = writeln!(text, "  {}: {}; {}", stretch.valences(), stretch.verdict.word(), stretch.why.join("; "));
-        }
-        print(&text)?;
-        if let Some(path) = self.certificate.as_ref().filter(|_| found.is_proved()) {
-            print(&write(&self.scheme, &scheme, path)?)?;
-        }
-        if found.is_proved() { Ok(()) } else { Err(Failure::No) }
-    }
-
-    fn found(&self, scheme: &Scheme) -> Result<EveryValence, Failure> {
         let checked = self.valence.as_ref().map_or_else(|| CHECKED.collect(), |list| list.0.clone());
-        let sums = refine::check(scheme, &checked)?;
-        let told = |obstacle| explain(scheme, obstacle);
-        let analyzer = Analyzer::new(scheme).map_err(told)?;
+        let sums = refine::check(&scheme, &checked)?;
+        let told = |obstacle| explain(&scheme, obstacle);
+        let analyzer = Analyzer::new(&scheme).map_err(told)?;
         let proofs = Proofs::of(&analyzer);
-        match &self.valence {
-            Some(list) => EveryValence::only(&proofs, &sums, &list.0).map_err(told),
-            None => EveryValence::of(&proofs, &sums, &|_| None).map_err(told),
+        let found = match &self.valence {
+            Some(list) => EveryValence::only(&proofs, &sums, &list.0).map_err(told)?,
+            None => EveryValence::of(&proofs, &sums, &|_| None).map_err(told)?,
+        };
+        print(&in_words(&scheme.book.title, &found))?;
+        if !found.is_proved() {
+            return Err(Failure::No);
         }
+        self.certificate.as_ref().map_or(Ok(()), |path| write(&proofs, path))
     }
+}
+
+fn in_words(title: &str, found: &EveryValence) -> String {
+    let mut text = format!("{title}\n  C1 for generic control points: {}\n", found.statement);
+    for stretch in &found.stretches {
+        let _ = writeln!(text, "  {}: {}; {}", stretch.valences(), stretch.verdict.word(), stretch.why.join("; "));
+    }
+    text
+}
+
+/// Writes the certificate, if there is one that the checker accepts.
+fn write(proofs: &Proofs, path: &Path) -> Result<(), Failure> {
+    let text = certificate(proofs).map_err(|why| failure(format!("there is no certificate of this: {why}")))?;
+    write_whole(path, text.as_bytes()).map_err(|error| failure(format!("{}: {error}", path.display())))?;
+    print(&format!("  {}: a certificate for every n >= 3, checked\n", path.display()))
 }

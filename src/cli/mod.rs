@@ -5,7 +5,6 @@
 
 mod analyze;
 mod catalogue;
-mod certificate;
 mod certify;
 mod check;
 mod claims;

@@ -3,10 +3,11 @@
 //! Reif's conditions (1995): the order of the eigenvalues, the characteristic map ([`super::maps`]), and the regular part by its
 //! symbol ([`crate::analysis::regular`]). What excludes C1 is told by [`super::spectrum::refutation`].
 
+use super::map::MapProof;
 use super::maps::Maps;
 use super::outcome::Outcome;
+use super::spectrum::order::at_once;
 use super::spectrum::refutation::{against_c1, is_effective};
-use super::spectrum::{range, tail};
 use crate::analysis::Analyzer;
 use crate::analysis::exact::ExactAnalysis;
 
@@ -42,6 +43,11 @@ impl<'p, 's> Proofs<'p, 's> {
         Proofs { analyzer, maps: Maps::of(analyzer), effective: is_effective(analyzer) }
     }
 
+    /// What is proved exactly of the characteristic maps of all valences at once.
+    pub fn maps_of_all(&self) -> &Outcome<MapProof> {
+        self.maps.every()
+    }
+
     /// What is proved at a valence, whose exact analysis this is.
     pub fn at(&self, n: usize, exact: Option<&ExactAnalysis>) -> Found {
         let against_c1 = exact.and_then(|exact| against_c1(exact, n, self.effective));
@@ -54,25 +60,24 @@ impl<'p, 's> Proofs<'p, 's> {
     }
 
     fn attempt(&self, affine: bool) -> Result<Tail, String> {
-        let forms = self.analyzer.forms()?;
-        if self.effective {
-            if let Some((from, witness)) = range::against_c1(forms).map_err(|trouble| trouble.to_string())? {
-                return Ok(Tail { from, c1: Outcome::Refuted { witness } });
-            }
-        }
+        let (from, except, order) = at_once(self.analyzer, self.effective);
+        let clear = |from: usize| from.max(except.map_or(3, |n| n + 1));
+        let tail = match order {
+            Outcome::Proved(tail) => tail,
+            Outcome::Refuted { witness } => return Ok(Tail { from: clear(from), c1: Outcome::Refuted { witness } }),
+            Outcome::Undecided { at } => return Err(at),
+        };
         if !affine {
             return Err("the weights are not shown to sum to 1".to_string());
         }
         if self.analyzer.regular()?.smoothness.is(1) != Some(true) {
             return Err("limits on regular meshes are not proved to be C1".to_string());
         }
-        let order = tail::prove(forms).map_err(|trouble| trouble.to_string())??;
-        match self.maps.from(order.from) {
+        match self.maps.from(tail.from) {
             Outcome::Proved((first, map)) => {
-                let from = first.max(order.except.map_or(3, |n| n + 1));
-                let order = format!("the order of the eigenvalues is proved for every n >= {} at once", order.from);
+                let order = format!("the order of the eigenvalues is proved for every n >= {} at once", tail.from);
                 let c1 = format!("every condition of Reif's theorem is proved: {order}, the characteristic map {map}");
-                Ok(Tail { from, c1: Outcome::Proved(c1) })
+                Ok(Tail { from: clear(first), c1: Outcome::Proved(c1) })
             }
             Outcome::Refuted { witness: at } | Outcome::Undecided { at } => Err(at),
         }

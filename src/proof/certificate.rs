@@ -6,10 +6,10 @@
 
 use super::jacobian::Pieces;
 use super::map::MapProof;
-use super::net::{Function, Net};
+use super::net::{Function, Net, polynomial_scale};
 use crate::analysis::Analyzer;
 use crate::analysis::exact::Value;
-use crate::numbers::{Field, Trouble, Univariate};
+use crate::numbers::{Field, Trouble};
 use crate::refine::Obstacle;
 use dashu_base::{Gcd, UnsignedAbs};
 use dashu_int::{IBig, UBig};
@@ -75,14 +75,15 @@ impl Certificate {
             return stuck("the subdominant eigenvalue is not a polynomial in the parameter");
         }
         let divisor = content([&course.lambda])?.1;
-        let scale = scale([&course.c, &Function::whole(1)].into_iter(), &interval.low)?;
+        let one = Function::whole(1);
+        let scale = scale(|| [&course.c, &one].into_iter(), &interval.low)?;
         Ok(Certificate {
             format: "eigenring-certificate/1",
             claim: "C1",
             from,
             scheme,
             range: [thousandths(&interval.low)?, thousandths(&interval.high)?],
-            c: [whole(&course.c, &scale)?, whole(&Function::whole(1), &scale)?],
+            c: [whole(&course.c, &scale)?, whole(&one, &scale)?],
             lambda: (whole(&course.lambda, &Function::rational(&divisor.clone().into()))?, small(&divisor)?),
             net: net(analyzer, proof)?,
             each: (from..next).map(|n| between(proof, n)).collect::<Result<_, _>>()?,
@@ -162,29 +163,19 @@ fn net(analyzer: &Analyzer, proof: &MapProof) -> Result<Vec<Valued>, Obstacle> {
     for (orbit, (a, b)) in net.values().iter().filter(|((i, j), _)| i >= j) {
         values.push((*orbit, [a.plus(&b.times(&course.c)?)?, b.clone()]));
     }
-    let scale = scale(values.iter().flat_map(|(_, own)| own), &proof.range.interval.low)?;
+    let scale = scale(|| values.iter().flat_map(|(_, own)| own), &proof.range.interval.low)?;
     values.iter().map(|(orbit, [x, y])| Ok((*orbit, [whole(x, &scale)?, whole(y, &scale)?]))).collect()
 }
 
-/// A function, positive at a parameter, whose products with some functions are whole polynomials without common factor.
-fn scale<'f>(functions: impl Iterator<Item = &'f Function> + Clone, at: &RBig) -> Result<Function, Trouble> {
-    let (mut above, mut below) = (Univariate::constant(RBig::ONE), Univariate::new(vec![]));
-    for own in functions.clone() {
-        let common = above.gcd(own.denominator())?;
-        above = above.times(&own.denominator().divided(&common)?.0)?;
-        below = below.gcd(own.numerator())?;
-    }
-    let polynomial = |own: Univariate<RBig>| {
-        let terms = own.coefficients().iter().rev();
-        terms
-            .clone()
-            .try_fold(Function::whole(0), |sum, own| sum.times(&Function::variable())?.plus(&Function::rational(own)))
-    };
-    let scale = polynomial(above)?.over(&polynomial(below)?)?;
-    let scaled: Vec<Function> = functions.map(|own| own.times(&scale)).collect::<Result<_, _>>()?;
+/// The same as [`polynomial_scale`], with whole coefficients that have no common factor.
+fn scale<'f, I>(functions: impl Fn() -> I, at: &RBig) -> Result<Function, Trouble>
+where
+    I: Iterator<Item = &'f Function>,
+{
+    let scale = polynomial_scale(&functions, at)?;
+    let scaled: Vec<Function> = functions().map(|own| own.times(&scale)).collect::<Result<_, _>>()?;
     let (numerators, denominators) = content(&scaled)?;
-    let sign = scale.numerator().evaluate(at)?.over(&scale.denominator().evaluate(at)?)?.signum();
-    scale.times(&Function::rational(&(sign * RBig::from(denominators) / RBig::from(numerators))))
+    scale.times(&Function::rational(&(RBig::from(denominators) / RBig::from(numerators))))
 }
 
 /// The greatest common divisor of all coefficients' numerators, the least common multiple of their denominators.

@@ -216,7 +216,7 @@ where
     }
     let scale = Function::of(above, below)?;
     let sign = scale.evaluate(at, RBig::clone)?.signum();
-    scale.times(&Function::rational(&sign.into()))
+    scale.times(&Function::rational(&sign))
 }
 
 /// A weight as a function of p.

@@ -4,6 +4,7 @@
 //! must not see the machine: no time, no path, no order that depends on hashing.
 
 pub mod boundary;
+mod certificate;
 mod csv;
 pub mod curve;
 mod files;
@@ -19,6 +20,7 @@ pub mod sweep;
 mod tables;
 mod terminal;
 
+pub use certificate::certificate;
 pub use csv::csv;
 pub use files::{write_all_whole, write_in_pieces, write_whole};
 pub use latex::latex;
@@ -62,16 +64,18 @@ pub fn json(report: &Report) -> Result<String, serde_json::Error> {
     serde_json::to_string_pretty(report).map(|text| text + "\n")
 }
 
-/// The report's texts as (file name, text): Markdown, LaTeX, CSV and JSON.
+/// The report's texts as (file name, text): Markdown, LaTeX, CSV and JSON, and the certificate where there is one.
 ///
 /// # Errors
 /// As [`json`].
 pub fn texts(report: &Report, figures: &[Figure]) -> Result<Vec<(String, String)>, serde_json::Error> {
     let name = |ending: &str| format!("{}.{ending}", report.scheme);
-    Ok(vec![
+    let mut texts = vec![
         (name("md"), markdown(report, figures)),
         (name("tex"), latex(report, figures)),
         (name("csv"), csv(report)),
         (name("json"), json(report)?),
-    ])
+    ];
+    texts.extend(report.certificate.iter().map(|own| (own.file.clone(), own.text.clone())));
+    Ok(texts)
 }

@@ -4,6 +4,7 @@
 //! (`"format": 1`). Lists are in a fixed order and floats print shortest: the same input gives the same bytes.
 
 use super::boundary::BoundaryReport;
+use super::certificate;
 use super::formulas::{AllValencesReport, all_valences};
 use super::ranges::RangeReport;
 use super::regular::{RegularReport, regular_report, with_parameters_free};
@@ -59,8 +60,8 @@ pub struct Report {
     pub why_no_formulas: Option<String>,
     /// Whether limit surfaces are C1, for every n.
     pub c1: EveryValence,
-    /// The file of the certificate that this is proved, beside the report; null where there is none.
-    pub certificate: Option<String>,
+    /// The certificate that this is proved; null where there is none.
+    pub certificate: Option<CertificateReport>,
     /// One entry for each valence asked for.
     pub valences: Vec<ValenceReport>,
     /// What the literature says, beside the analysis.
@@ -74,6 +75,16 @@ pub struct Report {
     /// What was found at boundaries, creases, corners and darts, where that is asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub boundary: Vec<BoundaryReport>,
+}
+
+/// A certificate that others can check.
+#[derive(Clone, Debug, Serialize)]
+pub struct CertificateReport {
+    /// Its file, beside the report.
+    pub file: String,
+    /// Its text.
+    #[serde(skip)]
+    pub text: String,
 }
 
 /// How schemes are classified.
@@ -366,6 +377,8 @@ impl Report {
             .collect();
         let known = |n: usize| judged.iter().find(|(analysis, _)| analysis.valence == n).map(|(_, own)| own.clone());
         let c1 = EveryValence::of(&proofs, sums, &known)?;
+        let text = if c1.is_proved() { certificate(&proofs).ok() } else { None };
+        let file = format!("{}.certificate.json", scheme.id);
         let claims = check_claims(scheme, &judged, &|name| names.orbit(name))?;
         let valences: Vec<ValenceReport> =
             judged.iter().map(|(analysis, verdicts)| valence_report(analysis, verdicts, &names, digits)).collect();
@@ -397,7 +410,7 @@ impl Report {
             all_valences: analyzer.forms().ok().map(|forms| all_valences(forms, &names)),
             why_no_formulas: analyzer.forms().err().map(str::to_string),
             c1,
-            certificate: None,
+            certificate: text.map(|text| CertificateReport { file, text }),
             valences,
             claims,
             sweep: None,

@@ -378,8 +378,8 @@ fn c1(report: &Report) -> Table {
     let row = |stretch: &Stretch| {
         vec![stretch.valences().into(), stretch.verdict.word().into(), stretch.why.join("; ").into()]
     };
-    let file = report.certificate.as_ref().map_or(String::new(), |file| {
-        format!(" The proof is in {file}, which `eigenring check {file}` checks against the scheme file.")
+    let file = report.certificate.as_ref().map_or(String::new(), |own| {
+        format!(" The certificate {} can be checked by a program that shares no code with this one.", own.file)
     });
     let note = format!(
         "Limit surfaces are C1 at the extraordinary point, for generic control points: {}.{file}",

@@ -16,7 +16,7 @@ pub enum Order {
     /// By the exact analysis of one valence.
     Single,
     /// At once.
-    AtOnce(TailProof),
+    AtOnce(Box<TailProof>),
 }
 
 /// What is known of the order at every n >= 3. Refuted is C1, for generic data, where the order excludes it.
@@ -45,36 +45,36 @@ impl Orders {
     /// The proof for all valences from one on, if there is one.
     pub fn tail(&self) -> Option<&TailProof> {
         self.parts.iter().find_map(|(_, outcome)| match outcome {
-            Outcome::Proved(Order::AtOnce(tail)) => Some(tail),
+            Outcome::Proved(Order::AtOnce(tail)) => Some(tail.as_ref()),
             _ => None,
         })
     }
 }
 
-/// Decides what can be decided. Where nothing is known for all valences from one on, no single ones are looked at.
-pub fn prove(analyzer: &Analyzer) -> Orders {
+/// What is known of all valences from one on at once: the first of them, one that is left out, and the answer; from n = 3 on
+/// where there is none.
+pub fn at_once(analyzer: &Analyzer, effective: bool) -> (usize, Option<usize>, Outcome<TailProof>) {
     let forms = match analyzer.forms() {
         Ok(forms) => forms,
-        Err(why) => return Orders { parts: vec![(Valences::From(3), Outcome::stuck(why))] },
+        Err(why) => return (3, None, Outcome::stuck(why)),
     };
     let stuck = match tail::prove(forms) {
-        Ok(Ok(tail)) => return with_single(analyzer, tail.from, tail.except, Outcome::Proved(Order::AtOnce(tail))),
+        Ok(Ok(tail)) => return (tail.from, tail.except, Outcome::Proved(tail)),
         Ok(Err(why)) => why,
         Err(trouble) => trouble.to_string(),
     };
     match range::against_c1(forms) {
-        Ok(Some((from, witness))) if is_effective(analyzer) => {
-            with_single(analyzer, from, None, Outcome::Refuted { witness })
-        }
-        _ => Orders { parts: vec![(Valences::From(3), Outcome::stuck(stuck))] },
+        Ok(Some((from, witness))) if effective => (from, None, Outcome::Refuted { witness }),
+        _ => (3, None, Outcome::stuck(stuck)),
     }
 }
 
-/// The single valences before all others, those and an excepted one by the exact analysis.
-fn with_single(analyzer: &Analyzer, from: usize, except: Option<usize>, tail: Outcome<Order>) -> Orders {
-    let single = (3..from).chain(except);
-    let mut parts: Vec<(Valences, Outcome<Order>)> = single.map(|n| (Valences::At(n), at(analyzer, n))).collect();
-    parts.push((Valences::From(from), tail));
+/// Decides what can be decided. Where nothing is known for all valences from one on, no single ones are looked at.
+pub fn prove(analyzer: &Analyzer) -> Orders {
+    let (from, except, at_once) = at_once(analyzer, is_effective(analyzer));
+    let single = if matches!(at_once, Outcome::Undecided { .. }) { 3..3 } else { 3..from };
+    let mut parts: Vec<_> = single.chain(except).map(|n| (Valences::At(n), at(analyzer, n))).collect();
+    parts.push((Valences::From(from), at_once.map(|tail| Order::AtOnce(Box::new(tail)))));
     Orders { parts }
 }
 
