@@ -18,13 +18,13 @@ fn parse(text: &str) -> Scheme {
 fn every(scheme: &Scheme) -> EveryValence {
     let sums = refine::check(scheme, &[3, 4, 5, 6, 7, 8]).unwrap();
     let analyzer = Analyzer::new(scheme).unwrap();
-    EveryValence::of(&Proofs::of(&analyzer), &sums, &|_| None).unwrap()
+    EveryValence::of(&Proofs::of(&analyzer), &sums, &|_| None)
 }
 
 fn only(scheme: &Scheme, valences: &[usize]) -> EveryValence {
     let sums = refine::check(scheme, valences).unwrap();
     let analyzer = Analyzer::new(scheme).unwrap();
-    EveryValence::only(&Proofs::of(&analyzer), &sums, valences).unwrap()
+    EveryValence::only(&Proofs::of(&analyzer), &sums, valences)
 }
 
 /// Peters and Reif (1998) for Catmull and Clark's scheme and Doo and Sabin's; Zorin (2000) for Loop's and both butterflies; Zorin and Schroeder

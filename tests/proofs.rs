@@ -3,12 +3,15 @@
 
 use dashu_ratio::RBig;
 use eigenring::analysis::Analyzer;
+use eigenring::analysis::exact::formulas::GENERIC;
+use eigenring::mesh::{Label, Lattice, Patch};
 use eigenring::numbers::Field;
 use eigenring::proof::course::range;
 use eigenring::proof::jacobian::Pieces;
 use eigenring::proof::map::{prove, verify};
 use eigenring::proof::net::{Function, Net};
 use eigenring::proof::outcome::Outcome;
+use eigenring::proof::ring::least_radius;
 use eigenring::scheme::{Scheme, catalogue};
 use std::f64::consts::TAU;
 
@@ -50,8 +53,10 @@ fn rules_that_reach_into_the_ring_are_seen() {
         let analyzer = Analyzer::new(&scheme).unwrap();
         let (lattice, forms) = (analyzer.lattice(), analyzer.forms().unwrap());
         let net = Net::of(&scheme, lattice, forms, range(forms).unwrap().unwrap().course).unwrap();
-        assert_eq!(net.is_regular_row(1, 0).unwrap(), regular, "{id}");
-        assert!(net.is_regular_row(20, 20).unwrap(), "{id}");
+        let pieces = if lattice == Lattice::Triangles { Pieces::Quartic } else { Pieces::Tensor(3) };
+        let row = |label: Label| net.row(label).ok();
+        let radius = least_radius(pieces, Patch::new(lattice, GENERIC), analyzer.clear_of_centre(), &row);
+        assert_eq!(radius.unwrap() == 1, regular, "{id}");
     }
 }
 

@@ -43,12 +43,11 @@ impl Certify {
         let scheme = open(&self.scheme, &self.set)?;
         let checked = self.valence.as_ref().map_or_else(|| CHECKED.collect(), |list| list.0.clone());
         let sums = refine::check(&scheme, &checked)?;
-        let told = |obstacle| explain(&scheme, obstacle);
-        let analyzer = Analyzer::new(&scheme).map_err(told)?;
+        let analyzer = Analyzer::new(&scheme).map_err(|obstacle| explain(&scheme, obstacle))?;
         let proofs = Proofs::of(&analyzer);
         let found = match &self.valence {
-            Some(list) => EveryValence::only(&proofs, &sums, &list.0).map_err(told)?,
-            None => EveryValence::of(&proofs, &sums, &|_| None).map_err(told)?,
+            Some(list) => EveryValence::only(&proofs, &sums, &list.0),
+            None => EveryValence::of(&proofs, &sums, &|_| None),
         };
         print(&in_words(&scheme.book.title, &found))?;
         if !found.is_proved() {

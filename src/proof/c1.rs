@@ -73,6 +73,9 @@ impl<'p, 's> Proofs<'p, 's> {
         if self.analyzer.regular()?.smoothness.is(1) != Some(true) {
             return Err("limits on regular meshes are not proved to be C1".to_string());
         }
+        if self.analyzer.forms()?.subdominant.as_ref() != Some(&tail.polynomial) {
+            return Err("the eigenvalue that leads is not seen to be that of the map".to_string());
+        }
         match self.maps.from(tail.from) {
             Outcome::Proved((first, map)) => {
                 let order = format!("the order of the eigenvalues is proved for every n >= {} at once", tail.from);

@@ -6,13 +6,12 @@
 
 use super::jacobian::Pieces;
 use super::map::MapProof;
-use super::net::{Function, Net, polynomial_scale};
+use super::net::{Function, Net, content, polynomial_scale};
 use crate::analysis::Analyzer;
 use crate::analysis::exact::Value;
 use crate::numbers::{Field, Trouble};
 use crate::refine::Obstacle;
-use dashu_base::{Gcd, UnsignedAbs};
-use dashu_int::{IBig, UBig};
+use dashu_int::IBig;
 use dashu_ratio::RBig;
 use serde::Serialize;
 
@@ -76,7 +75,7 @@ impl Certificate {
         }
         let divisor = content([&course.lambda])?.1;
         let one = Function::whole(1);
-        let scale = scale(|| [&course.c, &one].into_iter(), &interval.low)?;
+        let scale = polynomial_scale(|| [&course.c, &one].into_iter(), &interval.low)?;
         Ok(Certificate {
             format: "eigenring-certificate/1",
             claim: "C1",
@@ -163,28 +162,6 @@ fn net(analyzer: &Analyzer, proof: &MapProof) -> Result<Vec<Valued>, Obstacle> {
     for (orbit, (a, b)) in net.values().iter().filter(|((i, j), _)| i >= j) {
         values.push((*orbit, [a.plus(&b.times(&course.c)?)?, b.clone()]));
     }
-    let scale = scale(|| values.iter().flat_map(|(_, own)| own), &proof.range.interval.low)?;
+    let scale = polynomial_scale(|| values.iter().flat_map(|(_, own)| own), &proof.range.interval.low)?;
     values.iter().map(|(orbit, [x, y])| Ok((*orbit, [whole(x, &scale)?, whole(y, &scale)?]))).collect()
-}
-
-/// The same as [`polynomial_scale`], with whole coefficients that have no common factor.
-fn scale<'f, I>(functions: impl Fn() -> I, at: &RBig) -> Result<Function, Trouble>
-where
-    I: Iterator<Item = &'f Function>,
-{
-    let scale = polynomial_scale(&functions, at)?;
-    let scaled: Vec<Function> = functions().map(|own| own.times(&scale)).collect::<Result<_, _>>()?;
-    let (numerators, denominators) = content(&scaled)?;
-    scale.times(&Function::rational(&(RBig::from(denominators) / RBig::from(numerators))))
-}
-
-/// The greatest common divisor of all coefficients' numerators, the least common multiple of their denominators.
-fn content<'f>(functions: impl IntoIterator<Item = &'f Function>) -> Result<(IBig, IBig), Trouble> {
-    let (mut numerators, mut denominators) = (UBig::ZERO, UBig::ONE);
-    for value in functions.into_iter().flat_map(|own| own.numerator().coefficients()) {
-        let above = value.numerator().unsigned_abs();
-        numerators = if numerators.is_zero() { above } else { numerators.gcd(above) };
-        denominators = &denominators / (&denominators).gcd(value.denominator()) * value.denominator();
-    }
-    Ok((numerators.into(), denominators.into()))
 }

@@ -106,7 +106,7 @@ fn growing(c: &Function) -> Result<Option<Interval>, Trouble> {
     let (above, below) = (c.numerator(), c.denominator());
     let slope: Univariate<RBig> = above.derivative()?.times(below)?.minus(&above.times(&below.derivative()?)?)?;
     let whole = Interval { low: low.clone(), high: RBig::ONE };
-    let grows = is_positive(&slope, &whole)? && is_positive(&below.times(below)?, &whole)?;
+    let grows = is_positive(&slope, &whole) && is_positive(&below.times(below)?, &whole);
     let positive = is_positive_quotient(&Function::variable(), &whole)?;
     Ok((grows && positive).then_some(Interval { low, high }))
 }

@@ -6,14 +6,18 @@
 //! a spoke, and a + b c > 0 on the dual lattice, where its axis is the middle of sector 0.
 
 use super::course::{Range, range};
-use super::jacobian::{Grid, Pieces};
+use super::jacobian::{ControlNet, Pieces};
 use super::net::{Function, Net, Pair, polynomial_scale};
 use super::outcome::{Outcome, Valences};
 use super::positive::is_positive_quotient;
+use super::ring::least_radius;
 use crate::analysis::Analyzer;
-use crate::mesh::Lattice;
+use crate::analysis::exact::formulas::GENERIC;
+use crate::mesh::{Label, Lattice, Patch};
 use crate::numbers::{Field, Trouble};
 use crate::refine::Obstacle;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::fmt;
 
 /// How a map was proved regular and injective.
@@ -74,7 +78,8 @@ fn attempt(analyzer: &Analyzer) -> Result<Outcome<MapProof>, Obstacle> {
     if !is_positive_quotient(&range.course.lambda, &range.interval)? {
         return Ok(Outcome::stuck("the subdominant eigenvalue is not seen to be positive"));
     }
-    if analyzer.clear_of_centre() > 1 << LEVELS || !is_regular(&net, pieces)? {
+    let row = |label: Label| net.row(label).ok();
+    if least_radius(pieces, Patch::new(lattice, GENERIC), analyzer.clear_of_centre(), &row) != Some(1) {
         return Ok(Outcome::stuck("rules at the extraordinary point reach into the ring"));
     }
     let functions = match verify(&mut net, pieces, lattice, &range)? {
@@ -84,40 +89,6 @@ fn attempt(analyzer: &Analyzer) -> Result<Outcome<MapProof>, Obstacle> {
     let degree = functions.iter().filter_map(|own| own.numerator().degree().max(own.denominator().degree())).max();
     let valences = Valences::From(forms.from);
     Ok(Outcome::Proved(MapProof { valences, range, functions: functions.len(), degree: degree.unwrap_or(0) }))
-}
-
-/// So many levels on, rows on the ring keep clear of the centre.
-const LEVELS: u32 = 4;
-
-/// Whether the patches of the ring are refined as on a regular mesh, at every level: what Bezier points of the net presuppose. Those further out than
-/// [`LEVELS`] levels lead are.
-fn is_regular(net: &Net, pieces: Pieces) -> Result<bool, Obstacle> {
-    for (level, ((x, y), sign)) in (1..=LEVELS).flat_map(|level| pieces.ring().map(|patch| (level, patch))) {
-        // the controls of all patches that this one is made of
-        let scale = 1 << level;
-        let (low, high) = pieces.controls();
-        let along = if sign > 0 {
-            scale * x + low..scale * (x + 1) + high
-        } else {
-            scale * (x - 1) - high + 1..scale * x - low + 1
-        };
-        let over = if sign > 0 {
-            scale * y + low..scale * (y + 1) + high
-        } else {
-            scale * (y - 1) - high + 1..scale * y - low + 1
-        };
-        let needed = |i: i32, j: i32| match (pieces, sign) {
-            (Pieces::Quartic, 1) => i + j < scale * (x + y + 1) + 2 && i + j >= scale * (x + y) - 1,
-            (Pieces::Quartic, _) => i + j >= scale * (x + y - 1) - 1 && i + j < scale * (x + y) + 2,
-            _ => true,
-        };
-        for (i, j) in along.flat_map(|i| over.clone().map(move |j| (i, j))).filter(|(i, j)| needed(*i, *j)) {
-            if !net.is_regular_row(i, j)? {
-                return Ok(false);
-            }
-        }
-    }
-    Ok(true)
 }
 
 /// The functions that were shown to be positive, if S f = lambda f and all of them are; else where not. The map is looked at times a function
@@ -131,16 +102,19 @@ pub fn verify(
     lattice: Lattice,
     range: &Range,
 ) -> Result<Result<Vec<Function>, String>, Obstacle> {
-    let mut patches = Vec::new();
-    for patch in pieces.ring() {
-        patches.push((patch, pieces.bezier(net, patch)?));
+    let mut controls = Controls(BTreeMap::new());
+    for (i, j) in pieces.ring().into_iter().flat_map(|patch| pieces.stencil(patch)) {
+        if let Entry::Vacant(place) = controls.0.entry((i, j)) {
+            place.insert(net.at(i, j)?);
+        }
     }
-    let points = || patches.iter().flat_map(|(_, points)| points.values()).flat_map(|(a, b)| [a, b]);
-    let scale = polynomial_scale(points, &range.interval.low)?;
+    let scale = polynomial_scale(|| controls.0.values().flat_map(|(a, b)| [a, b]), &range.interval.low)?;
+    for (a, b) in controls.0.values_mut() {
+        (*a, *b) = (a.times(&scale)?, b.times(&scale)?);
+    }
     let mut functions = Vec::new();
-    for (patch, points) in &patches {
-        let scaled = |(index, (a, b)): (&(usize, usize), &Pair)| Ok((*index, (a.times(&scale)?, b.times(&scale)?)));
-        let points: Grid<Pair> = points.iter().map(scaled).collect::<Result<_, Trouble>>()?;
+    for patch in pieces.ring() {
+        let points = pieces.bezier(&mut controls, patch)?;
         for (index, value) in pieces.jacobian(&points)? {
             if !is_positive_quotient(&value, &range.interval)? {
                 return Ok(Err(format!("coefficient {index:?} of the Jacobian on the patch at {:?}", patch.0)));
@@ -159,6 +133,18 @@ pub fn verify(
         return Ok(Err("the net doesn't satisfy S f = lambda f".to_string()));
     }
     Ok(Ok(functions))
+}
+
+/// The net at the controls of the ring.
+struct Controls(BTreeMap<(i32, i32), Pair>);
+
+impl ControlNet for Controls {
+    type Value = Function;
+
+    fn at(&mut self, i: i32, j: i32) -> Result<Pair, Obstacle> {
+        let missing = || Obstacle::Limit("a control of the ring is missing".to_string());
+        self.0.get(&(i, j)).cloned().ok_or_else(missing)
+    }
 }
 
 fn along_axis((a, b): &Pair, lattice: Lattice, c: &Function) -> Result<Function, Trouble> {

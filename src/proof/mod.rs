@@ -24,6 +24,7 @@ pub mod maps;
 pub mod net;
 pub mod outcome;
 pub mod positive;
+pub mod ring;
 pub mod signed;
 pub mod spectrum;
 pub mod valence;

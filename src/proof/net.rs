@@ -15,6 +15,8 @@ use crate::numbers::linear::{null_space, part, shifted};
 use crate::numbers::{C, Field, Free, FreeWorld, N, PerFrequency, Quotient, Trouble, Univariate};
 use crate::refine::{Count, ExactWeights, Obstacle, Refinement};
 use crate::scheme::Scheme;
+use dashu_base::{Gcd, UnsignedAbs};
+use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -25,9 +27,6 @@ pub type Function = Quotient<RBig>;
 
 /// A value a + b w.
 pub type Pair = PairOf<Function>;
-
-/// An old point and its weight in the row of a new one.
-type Entry = (Label, PerFrequency<Free>);
 
 /// How c and lambda depend on the parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,9 +48,6 @@ pub struct Net<'a> {
 
 /// The world of n and c; parameters have their values.
 static WORLD: FreeWorld = FreeWorld { parameters: Vec::new() };
-
-/// So far from the centre that rows are regular.
-const FAR: i32 = 64;
 
 /// A chain of old points longer than this means that a value depends on itself outside the neighbourhood.
 const LONGEST_CHAIN: usize = 64;
@@ -106,10 +102,9 @@ impl<'a> Net<'a> {
 
     /// S f at an orbit's point in sector 0, from the scheme's own rules.
     fn image(&mut self, (i, j): Orbit, depth: usize) -> Result<Pair, Obstacle> {
-        let row = self.refinement.row(&self.patch, Label { sector: 0, i, j })?;
         let mut sum = (Function::whole(0), Function::whole(0));
-        for (old, weight) in row {
-            let weight = in_parameter(weight.value(Some(1)), &self.course.c)?;
+        for (old, weight) in self.row(Label { sector: 0, i, j })? {
+            let weight = in_parameter(&weight, &self.course.c)?;
             let (a, b) = self.value(old, depth + 1)?;
             sum = (sum.0.plus(&a.times(&weight)?)?, sum.1.plus(&b.times(&weight)?)?);
         }
@@ -131,20 +126,13 @@ impl<'a> Net<'a> {
         Ok(true)
     }
 
-    /// Whether the row of the new point at (i, j) in the coordinates of sector 0 is that of a regular mesh.
+    /// The row of a new point at frequency 1.
     ///
     /// # Errors
     /// As [`Net::of`].
-    pub fn is_regular_row(&self, i: i32, j: i32) -> Result<bool, Obstacle> {
-        let own = self.refinement.row(&self.patch, self.patch.point(0, i, j))?;
-        let far = self.refinement.row(&self.patch, Label { sector: 0, i: i + 2 * FAR, j: j + 2 * FAR })?;
-        let here = |label: Label| self.patch.point(0, label.i - FAR, label.j - FAR);
-        let mut regular: Vec<_> = far.into_iter().map(|(label, weight)| (here(label), weight)).collect();
-        let mut own: Vec<_> = own.into_iter().collect();
-        regular.sort_by_key(|(label, _)| *label);
-        own.sort_by_key(|(label, _)| *label);
-        let alike = |((p, v), (q, w)): (&Entry, &Entry)| p == q && v.value(Some(1)) == w.value(Some(1));
-        Ok(own.len() == regular.len() && own.iter().zip(&regular).all(alike))
+    pub fn row(&self, label: Label) -> Result<Vec<(Label, Free)>, Obstacle> {
+        let row = self.refinement.row(&self.patch, label)?;
+        Ok(row.into_iter().map(|(old, weight)| (old, weight.value(Some(1)).clone())).collect())
     }
 
     /// Whether the values, c and lambda have no pole in an interval.
@@ -155,7 +143,7 @@ impl<'a> Net<'a> {
         let values = self.values.values().flat_map(|(a, b)| [a, b]).chain([&self.course.c, &self.course.lambda]);
         for value in values {
             let below = value.denominator();
-            if !is_positive(&below.times(below)?, on)? {
+            if !is_positive(&below.times(below)?, on) {
                 return Ok(false);
             }
         }
@@ -196,7 +184,8 @@ pub fn turned<F: Field>((mut a, mut b): PairOf<F>, by: i64, c: &F) -> Result<Pai
     Ok((a, b))
 }
 
-/// A function whose products with all of these are polynomials without a common factor, and which is positive at a parameter.
+/// A function whose products with all of these are polynomials with whole coefficients and without a common factor, and which is positive at a
+/// parameter.
 ///
 /// # Errors
 /// When a limit of size is passed, or the parameter is a zero or a pole.
@@ -215,8 +204,24 @@ where
         }
     }
     let scale = Function::of(above, below)?;
+    let scaled: Vec<Function> = functions().map(|own| own.times(&scale)).collect::<Result<_, _>>()?;
+    let (numerators, denominators) = content(&scaled)?;
     let sign = scale.evaluate(at, RBig::clone)?.signum();
-    scale.times(&Function::rational(&sign))
+    scale.times(&Function::rational(&(sign * RBig::from(denominators) / RBig::from(numerators))))
+}
+
+/// The greatest common divisor of all coefficients' numerators, the least common multiple of their denominators.
+///
+/// # Errors
+/// When all are 0.
+pub fn content<'f>(functions: impl IntoIterator<Item = &'f Function>) -> Result<(IBig, IBig), Trouble> {
+    let (mut numerators, mut denominators) = (UBig::ZERO, UBig::ONE);
+    for value in functions.into_iter().flat_map(|own| own.numerator().coefficients()) {
+        let above = value.numerator().unsigned_abs();
+        numerators = if numerators.is_zero() { above } else { numerators.gcd(above) };
+        denominators = &denominators / (&denominators).gcd(value.denominator()) * value.denominator();
+    }
+    if numerators.is_zero() { Err(Trouble::DivisionByZero) } else { Ok((numerators.into(), denominators.into())) }
 }
 
 /// A weight as a function of p.

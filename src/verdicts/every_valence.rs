@@ -36,32 +36,22 @@ const LAST_SINGLE: usize = 12;
 
 impl EveryValence {
     /// Decides every valence. `known` gives verdicts that were found already.
-    ///
-    /// # Errors
-    /// When a weight has no value at a valence.
-    pub fn of(
-        proofs: &Proofs,
-        sums: &[RuleSum],
-        known: &dyn Fn(usize) -> Option<Vec<Verdict>>,
-    ) -> Result<EveryValence, Obstacle> {
+    pub fn of(proofs: &Proofs, sums: &[RuleSum], known: &dyn Fn(usize) -> Option<Vec<Verdict>>) -> EveryValence {
         let tail = proofs.tail(sums.iter().all(|sum| sum.identity));
         let from = if matches!(tail.c1, Outcome::Undecided { .. }) { LAST_SINGLE + 1 } else { tail.from };
-        let mut stretches = singles(proofs, sums, &(3..from).collect::<Vec<_>>(), known)?;
+        let mut stretches = singles(proofs, sums, &(3..from).collect::<Vec<_>>(), known);
         let (verdict, why) = match tail.c1 {
             Outcome::Proved(how) => (Decision::Proved, how),
             Outcome::Refuted { witness } => (Decision::Refuted, witness),
             Outcome::Undecided { at } => (Decision::Undecided, at),
         };
         stretches.push(Stretch { from, to: None, verdict, why: vec![why] });
-        Ok(EveryValence::told(stretches))
+        EveryValence::told(stretches)
     }
 
     /// Decides these valences, one by one.
-    ///
-    /// # Errors
-    /// As [`EveryValence::of`].
-    pub fn only(proofs: &Proofs, sums: &[RuleSum], valences: &[usize]) -> Result<EveryValence, Obstacle> {
-        Ok(EveryValence::told(singles(proofs, sums, valences, &|_| None)?))
+    pub fn only(proofs: &Proofs, sums: &[RuleSum], valences: &[usize]) -> EveryValence {
+        EveryValence::told(singles(proofs, sums, valences, &|_| None))
     }
 
     fn told(stretches: Vec<Stretch>) -> EveryValence {
@@ -79,21 +69,23 @@ fn singles(
     sums: &[RuleSum],
     valences: &[usize],
     known: &dyn Fn(usize) -> Option<Vec<Verdict>>,
-) -> Result<Vec<Stretch>, Obstacle> {
+) -> Vec<Stretch> {
     let mut stretches: Vec<Stretch> = Vec::new();
     for n in valences.iter().copied() {
-        let found = match known(n) {
-            Some(found) => found,
-            None => {
-                let analysis = proofs.analyzer.at(n)?;
-                verdicts(&analysis, sums, &proofs.at(n, analysis.exact.as_ref().ok()))
-            }
+        let found = known(n).map_or_else(|| judged(proofs, sums, n), Ok);
+        let (verdict, why) = match found.map(|own| own.into_iter().find(|own| own.claim == C1)) {
+            Ok(Some(own)) => (own.verdict, own.why),
+            Ok(None) => continue,
+            Err(obstacle) => (Decision::Undecided, vec![format!("there is no analysis: {obstacle}")]),
         };
-        for own in found.into_iter().filter(|own| own.claim == C1) {
-            push(&mut stretches, Stretch { from: n, to: Some(n), verdict: own.verdict, why: own.why });
-        }
+        push(&mut stretches, Stretch { from: n, to: Some(n), verdict, why });
     }
-    Ok(stretches)
+    stretches
+}
+
+fn judged(proofs: &Proofs, sums: &[RuleSum], n: usize) -> Result<Vec<Verdict>, Obstacle> {
+    let analysis = proofs.analyzer.at(n)?;
+    Ok(verdicts(&analysis, sums, &proofs.at(n, analysis.exact.as_ref().ok())))
 }
 
 /// Adds a valence to the last stretch, if it comes next and that says the same.

@@ -4,7 +4,6 @@
 //! each, everything is a Taylor form in c. A box where a sign is not seen is halved.
 
 use super::enclosed_map::CosineBox;
-use super::ring::{half_sector, least_radius};
 use super::root::largest_root;
 use super::signs::Reader;
 use super::taylor::Taylor;
@@ -21,6 +20,7 @@ use crate::proof::enclosed_net::EnclosedNet;
 use crate::proof::jacobian::{PatchAt, Pieces};
 use crate::proof::kernel::null_vector;
 use crate::proof::net::placed;
+use crate::proof::ring::{half_sector, least_radius};
 use crate::refine::{Count, ExactWeights, Obstacle, Refinement};
 use crate::scheme::Scheme;
 use dashu_ratio::RBig;

@@ -1,20 +1,20 @@
 //! Is the characteristic map of a piecewise polynomial scheme regular and injective, by enclosures?
 //!
 //! The same two tests as in [`crate::proof::map`], for what that does not reach: single valences with rules of their
-//! own ([`super::valence`]), and B-splines of any degree, whose wider stencils ask for a ring further out ([`ring`]). Values
+//! own ([`super::valence`]), and B-splines of any degree, whose wider stencils ask for a ring further out ([`crate::proof::ring`]). Values
 //! are enclosed ([`super::enclosed_net`]), so that a sign is proven ([`signs`]): at one valence, or on boxes of c that cover
 //! all valences from one on ([`cover`]). Where the Jacobian is certainly negative at a point, the map is not injective
 //! (docs/theory.md).
 
 pub mod cover;
 pub mod enclosed_map;
-pub mod ring;
 pub mod root;
 pub mod signs;
 pub mod taylor;
 
 use super::jacobian::Pieces;
 use super::outcome::{Outcome, Valences};
+use super::ring::{half_sector, radius_at};
 use super::valence::net_at;
 use crate::analysis::Analyzer;
 use crate::analysis::exact::ExactAnalysis;
@@ -23,7 +23,6 @@ use crate::numbers::Interval;
 use crate::refine::Obstacle;
 use cover::Family;
 use enclosed_map::{CosineBox, EnclosedMap};
-use ring::{half_sector, radius_at};
 use signs::Reader;
 
 /// A patch is quartered so often.

@@ -5,9 +5,9 @@
 //! there, up to a positive factor: so one that is certainly negative is no failure of a bound, but a place where the
 //! map turns over.
 
-use super::ring::quarters;
 use crate::proof::enclosed_net::EnclosedNet;
 use crate::proof::jacobian::{Grid, PairOf, PatchAt, Pieces};
+use crate::proof::ring::quarters;
 use crate::proof::signed::Signed;
 use crate::refine::Obstacle;
 use std::cmp::Ordering;

@@ -3,9 +3,9 @@
 //! With t = 1/n and c = cos(2 pi/n) they are roots of fixed polynomials ([`AllValences`]): those of general frequencies
 //! with c_k as well. The one that lambda is a root of is told apart.
 
-use super::branch::Branch;
+use super::branch::{Branch, approx_largest};
 use super::disc::Number;
-use crate::analysis::exact::formulas::{AllValences, FrequencyForms, Which};
+use crate::analysis::exact::formulas::{AllValences, FrequencyForms, GENERIC, Which};
 use crate::numbers::{C, C_K, Field, Free, N, Trouble, Univariate};
 use dashu_ratio::RBig;
 
@@ -36,7 +36,7 @@ impl Parts {
         };
         let is_general = first.which == Which::General;
         let variable = if is_general { C_K } else { C };
-        let Some(leading) = leading(forms, first)? else {
+        let Some(leading) = leading(first)? else {
             return Ok(Err("frequency 1 has no largest eigenvalue that is real and simple".to_string()));
         };
         if depends_on_others(&leading, variable)
@@ -90,16 +90,20 @@ pub fn depends_on_others(polynomial: &Univariate<Free>, variable: usize) -> bool
     polynomial.coefficients().iter().any(other)
 }
 
-/// The factor that the forms have for lambda, if it is a simple one.
-fn leading(forms: &AllValences, first: &FrequencyForms) -> Result<Option<Univariate<Free>>, Trouble> {
-    let Some(lambda) = &forms.subdominant else { return Ok(None) };
-    let c = Free::variable(C);
-    for form in first.forms.iter().filter(|form| form.multiplicity == 1) {
-        if form.polynomial.mapped(|value| value.substituted(C_K, &c))? == *lambda {
-            return Ok(Some(form.polynomial.clone()));
+/// The factor with the largest real root at a large valence, if it is a simple one.
+fn leading(first: &FrequencyForms) -> Result<Option<Univariate<Free>>, Trouble> {
+    let cosine = Number::from_f64(libm::cos(std::f64::consts::TAU / GENERIC as f64))?;
+    let mut values = vec![cosine; 6];
+    values[N] = Number::whole(GENERIC as i64);
+    let mut best: Option<(f64, usize)> = None;
+    for (index, form) in first.forms.iter().enumerate() {
+        let own = approx_largest(&form.polynomial.mapped(|value| value.evaluate(&values))?);
+        if own.is_some_and(|own| best.is_none_or(|(most, _)| own > most)) {
+            best = own.map(|own| (own, index));
         }
     }
-    Ok(None)
+    let form = best.and_then(|(_, index)| first.forms.get(index)).filter(|form| form.multiplicity == 1);
+    Ok(form.map(|form| form.polynomial.clone()))
 }
 
 /// A rational function of n with 1/t for n, t standing at the place of n.

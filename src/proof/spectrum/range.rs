@@ -8,6 +8,7 @@
 use super::branch::{approx_largest_modulus, at_variable, rounded};
 use super::disc::{Number, all_within, between, deflated, is_negative};
 use super::parts::{cosine, depends_on_others, frequencies, in_order, in_t, one};
+use super::refutation::SUPPOSED;
 use super::tail::FIRST;
 use crate::analysis::exact::formulas::{AllValences, FrequencyForms, Which};
 use crate::numbers::{C, C_K, Field, Free, Trouble, Univariate};
@@ -129,7 +130,8 @@ impl Attempt<'_> {
         let (low, high) = (part(start, STEPS), part(end, STEPS));
         Ok(Some(format!(
             "a frequency other than 0 and 1 leads: every n >= {} has one with k/n from {low} to {high}, whose largest \
-             eigenvalue is above {radius}; those of frequency 1 and those of frequency 0 after 1 are smaller in modulus",
+             eigenvalue is above {radius}; those of frequency 1 and those of frequency 0 after 1 are smaller in modulus: limits are not \
+             single-sheeted, {SUPPOSED}",
             self.from
         )))
     }
@@ -161,7 +163,7 @@ impl Attempt<'_> {
         }
         Ok(Some(format!(
             "frequency 0 leads: at every n >= {} it has after 1 one eigenvalue above {radius} in modulus, and all others \
-             are below: limits lie along a half line",
+             are below: limits lie along a half line, {SUPPOSED}",
             self.from
         )))
     }

@@ -17,6 +17,10 @@ pub fn is_effective(analyzer: &Analyzer) -> bool {
     analyzer.scheme().is_interpolating() || spline.is_some_and(|spline| spline.is_independent())
 }
 
+/// What these reasons rest on beside the spectrum: that zeros on a ring are of finitely many parts, as they are for piecewise polynomials, and, for
+/// frequency 0, that the function does not vanish along a line into the point without changing its sign.
+pub(super) const SUPPOSED: &str = "if zeros of the leading eigenfunction are as docs/theory.md, section 17, supposes";
+
 /// Why limits of generic data are not C1 at the extraordinary point of this valence, if the spectrum tells so. It is
 /// told for schemes that are effective, see [`is_effective`]; leading eigenfunctions are supposed to vanish nowhere
 /// along a line into the point, or to change their sign, and their zeros on a ring to be of finitely many parts.
@@ -27,7 +31,7 @@ pub fn against_c1(exact: &ExactAnalysis, valence: usize, effective: bool) -> Opt
     let functions: usize = leading.iter().map(|e| functions(e, valence)).sum();
     match first.frequency {
         0 if alone && functions == 1 => Some(format!(
-            "frequency 0 leads: after 1 its {} is larger in modulus than {}: limits lie along a half line",
+            "frequency 0 leads: after 1 its {} is larger in modulus than {}: limits lie along a half line, {SUPPOSED}",
             in_words(first),
             rest(exact, first)
         )),
@@ -37,7 +41,7 @@ pub fn against_c1(exact: &ExactAnalysis, valence: usize, effective: bool) -> Opt
             Some(format!("a tie: after 1 lead {} alike: limits have no tangent plane", names.join(" and ")))
         }
         k if alone && k > 1 => Some(format!(
-            "frequency {k} leads: after 1 its {} is larger in modulus than {}: limits are not single-sheeted",
+            "frequency {k} leads: after 1 its {} is larger in modulus than {}: limits are not single-sheeted, {SUPPOSED}",
             in_words(first),
             rest(exact, first)
         )),

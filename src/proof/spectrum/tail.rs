@@ -11,7 +11,7 @@ use super::disc::{Number, all_within, between};
 use super::parts::{Found, Parts, cosine, in_order, named};
 use super::tie::Tie;
 use crate::analysis::exact::formulas::AllValences;
-use crate::numbers::{C_K, Field, Free, Trouble, Univariate};
+use crate::numbers::{C, C_K, Field, Free, Trouble, Univariate};
 use dashu_ratio::RBig;
 
 /// What shows the order of the eigenvalues for every valence from one on.
@@ -32,6 +32,8 @@ pub struct TailProof {
     pub tie_at_infinity: Option<usize>,
     /// How many boxes were looked at.
     pub boxes: usize,
+    /// The polynomial that lambda is the largest root of, in c.
+    pub polynomial: Univariate<Free>,
 }
 
 /// First valences that are tried, as far as the forms hold there.
@@ -109,7 +111,10 @@ impl Attempt<'_> {
         }
         let increases_from = parts.is_general.then_some(first);
         let (tie_at_infinity, boxes) = (self.tie, self.boxes);
-        Ok(Ok(TailProof { from, except: None, low, high: at_end.high, increases_from, tie_at_infinity, boxes }))
+        let c = Free::variable(C);
+        let polynomial = parts.branch.polynomial().mapped(|value| value.substituted(C_K, &c))?;
+        let high = at_end.high;
+        Ok(Ok(TailProof { from, except: None, low, high, increases_from, tie_at_infinity, boxes, polynomial }))
     }
 
     /// Whether the largest root at samples, approximately, increases or is constant from a cosine to 1: else no box will do.
