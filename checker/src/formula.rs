@@ -1,14 +1,13 @@
 //! What does a formula of a scheme file say, at one n or for all large ones?
 //!
-//! A polynomial in t = 1/n, c = cos(2 pi/n), z = cos(2 pi j/n): sums, products, powers up to 12, quotients by numbers
-//! and powers of n, and cosines of 2*pi/n and 2*pi*j/n. Nothing else is checkable.
+//! A polynomial in t = 1/n, c = cos(2 pi/n), z = cos(2 pi j/n), with powers up to 12. Nothing else is checkable.
 
 use crate::polynomial::{C, Poly, T, Z};
 use std::cell::Cell;
 use toml::{Table, Value};
 
 /// The valence that a formula is read for, or the first one of a tail of them.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(crate) struct Count {
     pub(crate) n: i64,
     pub(crate) tail: bool,
@@ -17,6 +16,12 @@ pub(crate) struct Count {
 impl Count {
     pub(crate) fn value(self) -> Poly {
         if self.tail { Poly::power_of(T, -1) } else { Poly::number(self.n) }
+    }
+}
+
+impl std::fmt::Debug for Count {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        write!(f, "n {} {}", if self.tail { ">=" } else { "=" }, self.n)
     }
 }
 

@@ -1,8 +1,7 @@
 //! Does a certificate prove what it says of a subdivision scheme?
 //!
-//! A certificate (docs/certificate.md) claims that limit surfaces are C1 at extraordinary points of every valence from
-//! one on. Its obligations are verified from the scheme's rules in rational arithmetic, without search or code of the
-//! prover. What can't be checked isn't accepted.
+//! A certificate (docs/certificate.md) claims C1 at extraordinary points of every valence from one on. It is verified
+//! from the scheme's rules in rational arithmetic, without search or code of the prover; what can't be isn't accepted.
 
 mod certificate;
 mod cosine;

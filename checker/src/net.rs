@@ -1,7 +1,6 @@
 //! What are the values of a net of one frequency, all around the centre?
 //!
-//! A value of frequency k is x + i sin(2 pi k/n) y, kept as (x, y): turned and reflected it changes by c_k alone. At
-//! frequency 0 nothing is turned. Points with a >= b are enough, the reflection gives the others.
+//! x + i sin(2 pi k/n) y is kept as (x, y): turned and reflected by c_k alone, which gives points with a < b, too.
 
 use crate::formula::Count;
 use crate::polynomial::{C, Poly};

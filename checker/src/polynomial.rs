@@ -1,7 +1,6 @@
 //! Is a polynomial positive on a box?
 //!
-//! It lies between its Bernstein coefficients; where not all are positive, the box is halved, up to 12 times in a row.
-//! Polynomials have rational coefficients and few unknowns; n is 1/t, so that powers of t may be negative.
+//! It is, where its Bernstein coefficients are, on the box or its halves, up to 12 times in a row. Powers of t may be < 0.
 
 use dashu_base::BitTest;
 use dashu_ratio::RBig;

@@ -108,8 +108,7 @@ impl Scheme {
         Some(own.iter().map(|own| own.with(C, &cosine).as_number()).eq(wanted))
     }
 
-    /// The row of (0, 0) at a frequency k, the weights of all sectors at the points of sector 0: of a centre at
-    /// frequency 0, of a point beside the central face at any, in c_k.
+    /// The row of (0, 0) in c_k, weights of all sectors at points of sector 0: of a centre at frequency 0 only.
     pub(crate) fn centre(&self, k: i64, count: Count) -> Option<Vec<(Index, Poly)>> {
         let (n, part) = (count.value(), |below: i64| RBig::ONE / RBig::from(below));
         let row = match self.lattice {

@@ -1,7 +1,6 @@
 //! Is lambda the largest eigenvalue but 1, and simple at frequency 1?
 //!
-//! The block of each frequency falls apart into cores, unknowns that need each other. Schur and Cohn's test tells if
-//! all zeros of a core's characteristic polynomial have a modulus below a radius: where some polynomials are positive.
+//! Cores are unknowns that need each other; their zeros are in a disc if some polynomials are positive (Schur, Cohn).
 
 use crate::certificate::{Certificate, parameter};
 use crate::cosine::{cosine, pi};

@@ -87,6 +87,10 @@ impl Verify {
             check_rules(&scheme, book.as_ref(), &level.mesh)?;
         }
         let plain = Refiner::new(&scheme, book.as_ref()).map_err(|wrong| refused(&scheme, wrong))?;
+        if self.boundary_faces.is_some() && !(plain.boundary().is_some() && plain.keeps_boundary()) {
+            let why = "there are no masks at a boundary to check: the scheme has no boundary rules, or its splits turn the boundary";
+            return Err(failure(format!("{}: {why}", scheme.book.title)));
+        }
         let own = meshes.first().map(|(_, level)| boundary_faces_of(&level.mesh));
         let places = self.places(&plain, &valences, own);
         let meshes = if self.mesh.is_some() { meshes } else { shapes_for(&plain)? };

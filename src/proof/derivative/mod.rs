@@ -2,7 +2,7 @@
 //!
 //! For schemes on triangles whose regular symbol is divisible by (1 + z_1)(1 + z_2)(1 + z_1/z_2): differences along
 //! each axis are refined by a scheme of their own, and those of differences along the other directions, too. So the
-//! derivatives on a cell are enclosed by the differences that they depend on ([`lebesgue`]), and cells are refined
+//! derivatives on a cell are enclosed by the differences that they depend on ([`mod@lebesgue`]), and cells are refined
 //! until the Jacobian's sign is told ([`sweep`]). At one valence the net is enclosed ([`super::valence`]); for all valences at
 //! once it is rational in a parameter and expanded on small intervals ([`every`], [`family`]). Zorin 2000 proves the
 //! same by other estimates.
