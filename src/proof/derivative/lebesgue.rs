@@ -114,28 +114,7 @@ fn distance(point: Point, directions: &[Point]) -> Option<i32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::regular::mask::Mask;
-    use crate::numbers::{Field, Free};
-    use crate::scheme::catalogue;
-
-    fn mask(id: &str) -> Sequence {
-        Mask::of(&catalogue::open(id).unwrap().unwrap().with_values()).unwrap().coefficients
-    }
-
-    fn refined(data: &BTreeMap<Point, RBig>, mask: &Sequence) -> BTreeMap<Point, RBig> {
-        let mut fine = BTreeMap::new();
-        for ([x, y], value) in data {
-            for ([a, b], weight) in mask {
-                *fine.entry([2 * x + a, 2 * y + b]).or_insert(RBig::ZERO) += value * weight.as_rational().unwrap();
-            }
-        }
-        fine
-    }
-
-    fn twice(mask: &Sequence, v: Point) -> Sequence {
-        let own = differences(mask, v).unwrap().unwrap();
-        own.into_iter().map(|(point, weight)| (point, weight.times(&Free::whole(2)).unwrap())).collect()
-    }
+    use crate::proof::derivative::norms::tests::{mask, refined, twice};
 
     /// Differences of refined data are refined differences.
     #[test]

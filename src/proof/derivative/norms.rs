@@ -108,7 +108,7 @@ pub fn norms(sequence: &Sequence) -> Vec<RBig> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::super::lebesgue::differences;
     use super::*;
     use crate::analysis::regular::mask::Mask;
@@ -116,11 +116,11 @@ mod tests {
     use crate::scheme::catalogue;
     use std::collections::BTreeMap;
 
-    fn mask(id: &str) -> Sequence {
+    pub(crate) fn mask(id: &str) -> Sequence {
         Mask::of(&catalogue::open(id).unwrap().unwrap().with_values()).unwrap().coefficients
     }
 
-    fn refined(data: &BTreeMap<Point, RBig>, mask: &Sequence) -> BTreeMap<Point, RBig> {
+    pub(crate) fn refined(data: &BTreeMap<Point, RBig>, mask: &Sequence) -> BTreeMap<Point, RBig> {
         let mut fine = BTreeMap::new();
         for ([x, y], value) in data {
             for ([a, b], weight) in mask {
@@ -130,7 +130,7 @@ mod tests {
         fine
     }
 
-    fn twice(mask: &Sequence, v: Point) -> Sequence {
+    pub(crate) fn twice(mask: &Sequence, v: Point) -> Sequence {
         let own = differences(mask, v).unwrap().unwrap();
         own.into_iter().map(|(point, weight)| (point, weight.times(&Free::whole(2)).unwrap())).collect()
     }
