@@ -45,7 +45,7 @@ fn conditions_are_decided_where_they_are_proved() {
     }
 }
 
-/// Where the exact world has no values (n is too large), conditions on eigenvalues stay undecided.
+/// Where the exact world has no values (n is too large), conditions on eigenvalues stay undecided; C1 is decided by what is proved of all n.
 #[test]
 fn approximate_values_decide_nothing() {
     let scheme = catalogue::open("catmull-clark").unwrap().unwrap();
@@ -55,9 +55,14 @@ fn approximate_values_decide_nothing() {
     assert!(valence.why_not_exact.as_ref().unwrap().contains("degree"));
     assert!(valence.eigenvalues.iter().all(|e| e.quantity.exact.is_none() && e.quantity.decimal.is_none()));
     for verdict in &valence.verdicts {
-        let proved = ["affine invariance", "regular part"].contains(&verdict.claim.as_str());
+        let proved = ["affine invariance", "regular part", "C1"].contains(&verdict.claim.as_str());
         assert_eq!(verdict.verdict, if proved { Decision::Proved } else { Decision::Undecided }, "{}", verdict.claim);
     }
+    let own = |study: &Study| study.report.valences[0].verdicts.iter().find(|own| own.claim == "C1").unwrap().clone();
+    assert!(own(&study).why[0].contains("every n >= 4"));
+    // a scheme that nothing is known of for all n
+    let kobbelt = catalogue::open("kobbelt").unwrap().unwrap();
+    assert_eq!(own(&Study::of(&kobbelt, &[4001], false, &|| ()).unwrap()).verdict, Decision::Undecided);
 }
 
 /// 3/(8n) at n = 3 ties lambda with the eigenvalue of frequency 0: floating numbers can't see it, exact ones refute the condition.

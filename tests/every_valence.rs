@@ -64,6 +64,13 @@ fn single_valences_agree_with_what_is_said_of_all() {
     }
 }
 
+/// Beyond the valences that are exact, what is proved of all decides.
+#[test]
+fn large_valences_are_decided_by_what_is_known_of_all() {
+    assert_eq!(only(&open("loop"), &[399, 400, 401, 4001]).statement, "proved for n = 399..401 and n = 4001");
+    assert_eq!(only(&open("butterfly"), &[7, 5000]).statement, "proved for n = 7; refuted for n = 5000");
+}
+
 #[test]
 fn folds_are_refuted() {
     for (text, n) in

@@ -135,6 +135,7 @@ impl Analyze {
         self.symbolic.iter().try_for_each(|name| scheme.leave_free(name.trim())).map_err(failure)?;
         let draw = !self.no_pictures && self.format.is_none();
         let bar = progress_bar(&self.valence.0);
+        let bar = if bar.is_hidden() { spinner("analysing, and deciding C1 for every valence") } else { bar };
         let study = Study::with_digits(&scheme, &self.valence.0, self.digits.into(), draw, &|| bar.inc(1));
         bar.finish_and_clear();
         let study = study.map_err(|error| explain(&scheme, error))?;
@@ -187,6 +188,13 @@ fn add_sweep(
     Ok(())
 }
 
+/// A sign on a terminal that work goes on.
+pub(crate) fn spinner(words: &'static str) -> ProgressBar {
+    let spinner = ProgressBar::new_spinner().with_message(words);
+    spinner.enable_steady_tick(std::time::Duration::from_millis(120));
+    spinner
+}
+
 /// A bar on a terminal, when the work takes long enough to ask for one.
 fn progress_bar(valences: &[usize]) -> ProgressBar {
     if valences.iter().sum::<usize>() < 500 {
@@ -237,7 +245,14 @@ fn write(study: &Study, folder: &Path) -> Result<Vec<String>, Failure> {
     if !study.report.boundary.is_empty() {
         files.push(("boundary.csv".to_string(), boundary::boundary_csv(&study.report.boundary).into_bytes()));
     }
-    write_files(files, pictures, folder)
+    let written = write_files(files, pictures, folder)?;
+    let stale = folder.join(study.report.certificate_file());
+    if study.report.certificate.is_none() && stale.is_file() {
+        let trouble =
+            |error| failure(format!("`{}` is an old certificate and can't be removed: {error}", stale.display()));
+        fs::remove_file(&stale).map_err(trouble)?;
+    }
+    Ok(written)
 }
 
 /// Writes texts, and pictures as SVG and PNG, into a folder; gives their names.

@@ -1,9 +1,9 @@
 //! `certify`: are limit surfaces C1, proved for every valence?
 
-use super::analyze::explain;
+use super::analyze::{explain, spinner};
 use super::open::open;
 use super::valences::Valences;
-use super::{Failure, failure, print};
+use super::{Failure, failure, print, say};
 use clap::Args;
 use eigenring::analysis::Analyzer;
 use eigenring::proof::c1::Proofs;
@@ -30,7 +30,8 @@ pub(crate) struct Certify {
     /// Set a parameter of the scheme, for example w=1/32; may be given several times
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Write a certificate for every valence, which `eigenring check` checks again
+    /// Write a certificate for every valence, which `eigenring check` checks again; of schemes of a single pass without
+    /// parameters whose maps are proved by exact polynomials
     #[arg(long, value_name = "FILE", conflicts_with = "valence")]
     certificate: Option<PathBuf>,
 }
@@ -44,13 +45,18 @@ impl Certify {
         let checked = self.valence.as_ref().map_or_else(|| CHECKED.collect(), |list| list.0.clone());
         let sums = refine::check(&scheme, &checked)?;
         let analyzer = Analyzer::new(&scheme).map_err(|obstacle| explain(&scheme, obstacle))?;
+        let busy = spinner("deciding C1");
         let proofs = Proofs::of(&analyzer);
         let found = match &self.valence {
             Some(list) => EveryValence::only(&proofs, &sums, &list.0),
             None => EveryValence::of(&proofs, &sums, &|_| None),
         };
+        busy.finish_and_clear();
         print(&in_words(&scheme.book.title, &found))?;
         if !found.is_proved() {
+            if let Some(path) = &self.certificate {
+                say(&format!("no certificate is written to {}: C1 is not proved for every n >= 3", path.display()));
+            }
             return Err(Failure::No);
         }
         self.certificate.as_ref().map_or(Ok(()), |path| write(&proofs, path))
@@ -67,7 +73,8 @@ fn in_words(title: &str, found: &EveryValence) -> String {
 
 /// Writes the certificate, if there is one that the checker accepts.
 fn write(proofs: &Proofs, path: &Path) -> Result<(), Failure> {
-    let text = certificate(proofs).map_err(|why| failure(format!("there is no certificate of this: {why}")))?;
+    let text = certificate(proofs)
+        .map_err(|why| failure(format!("it is proved, but there is no certificate of it: {why}")))?;
     write_whole(path, text.as_bytes()).map_err(|error| failure(format!("{}: {error}", path.display())))?;
     print(&format!("  {}: a certificate for every n >= 3, checked\n", path.display()))
 }

@@ -40,7 +40,7 @@ const EXAMPLES: &str = "Examples:
   eigenring analyze four-point --set w=1/16        a scheme for curves
   eigenring refine chaikin in.csv -o out.svg -l 5  a polygon
 
-Exit status: 0 done, 1 a check says no (verify, claims, check), 2 bad usage or bad input.";
+Exit status: 0 done, 1 a check says no (verify, claims, certify, check), 2 bad usage or bad input.";
 
 /// Analyses subdivision schemes: local matrices at any valence, spectra, masks, characteristic maps, smoothness conditions.
 #[derive(Parser)]

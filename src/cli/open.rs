@@ -75,7 +75,7 @@ pub(crate) fn open_any(
 /// Which boundary files are asked for.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct BoundaryRules {
-    /// The boundary file whose rules are taken: a name such as cubic, the path of a file, or none [default: the first that the scheme names]
+    /// The boundary file whose rules are taken: a name such as cubic, the path of a file, several with commas, all, or none [default: the first that the scheme names]
     #[arg(long = "boundary-rules", value_name = "RULES", value_delimiter = ',')]
     asked: Vec<String>,
 }

@@ -368,7 +368,7 @@ impl Report {
     ) -> Result<Report, Obstacle> {
         let names = OrbitNames::of(&Refinement::<f64>::new(scheme, None), analyzer.lattice());
         let proofs = Proofs::of(analyzer);
-        let judged: Vec<(Analysis, Vec<Verdict>)> = analyses
+        let mut judged: Vec<(Analysis, Vec<Verdict>)> = analyses
             .into_iter()
             .map(|analysis| {
                 let found = verdicts(&analysis, sums, &proofs.at(analysis.valence, analysis.exact.as_ref().ok()));
@@ -377,8 +377,8 @@ impl Report {
             .collect();
         let known = |n: usize| judged.iter().find(|(analysis, _)| analysis.valence == n).map(|(_, own)| own.clone());
         let c1 = EveryValence::of(&proofs, sums, &known);
+        judged.iter_mut().for_each(|(analysis, own)| c1.settle(analysis.valence, own));
         let text = if c1.is_proved() { certificate(&proofs).ok() } else { None };
-        let file = format!("{}.certificate.json", scheme.id);
         let claims = check_claims(scheme, &judged, &|name| names.orbit(name))?;
         let valences: Vec<ValenceReport> =
             judged.iter().map(|(analysis, verdicts)| valence_report(analysis, verdicts, &names, digits)).collect();
@@ -410,7 +410,7 @@ impl Report {
             all_valences: analyzer.forms().ok().map(|forms| all_valences(forms, &names)),
             why_no_formulas: analyzer.forms().err().map(str::to_string),
             c1,
-            certificate: text.map(|text| CertificateReport { file, text }),
+            certificate: text.map(|text| CertificateReport { file: certificate_file(&scheme.id), text }),
             valences,
             claims,
             sweep: None,
@@ -421,6 +421,11 @@ impl Report {
 }
 
 impl Report {
+    /// The name of the certificate's file, whether there is one or not.
+    pub fn certificate_file(&self) -> String {
+        certificate_file(&self.scheme)
+    }
+
     /// Adds what was found at boundaries, with its sources.
     pub fn add_boundary(&mut self, found: Vec<BoundaryReport>) {
         for key in found.iter().flat_map(|own| &own.source) {
@@ -430,6 +435,10 @@ impl Report {
         }
         self.boundary = found;
     }
+}
+
+fn certificate_file(scheme: &str) -> String {
+    format!("{scheme}.certificate.json")
 }
 
 /// Every source that is mentioned, the scheme's own first.

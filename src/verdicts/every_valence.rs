@@ -2,7 +2,7 @@
 //!
 //! The first ones are judged one by one ([`super::verdicts`]), the others by one proof for all of them ([`crate::proof::c1::Proofs::tail`]).
 
-use super::{C1, Decision, Verdict, verdicts};
+use super::{C1, Decision, Verdict, says, verdicts};
 use crate::proof::c1::Proofs;
 use crate::proof::outcome::Outcome;
 use crate::refine::Obstacle;
@@ -37,21 +37,35 @@ const LAST_SINGLE: usize = 12;
 impl EveryValence {
     /// Decides every valence. `known` gives verdicts that were found already.
     pub fn of(proofs: &Proofs, sums: &[RuleSum], known: &dyn Fn(usize) -> Option<Vec<Verdict>>) -> EveryValence {
-        let tail = proofs.tail(sums.iter().all(|sum| sum.identity));
-        let from = if matches!(tail.c1, Outcome::Undecided { .. }) { LAST_SINGLE + 1 } else { tail.from };
-        let mut stretches = singles(proofs, sums, &(3..from).collect::<Vec<_>>(), known);
-        let (verdict, why) = match tail.c1 {
-            Outcome::Proved(how) => (Decision::Proved, how),
-            Outcome::Refuted { witness } => (Decision::Refuted, witness),
-            Outcome::Undecided { at } => (Decision::Undecided, at),
-        };
-        stretches.push(Stretch { from, to: None, verdict, why: vec![why] });
+        let last = stretch_of(proofs, sums);
+        let mut stretches = singles(proofs, sums, &(3..last.from).collect::<Vec<_>>(), known);
+        stretches.push(last);
         EveryValence::told(stretches)
     }
 
-    /// Decides these valences, one by one.
+    /// Decides these valences, one by one; where that leaves one open, by what is known of all from one on.
     pub fn only(proofs: &Proofs, sums: &[RuleSum], valences: &[usize]) -> EveryValence {
-        EveryValence::told(singles(proofs, sums, valences, &|_| None))
+        let stretches = singles(proofs, sums, valences, &|_| None);
+        if stretches.iter().all(|own| own.verdict != Decision::Undecided) {
+            return EveryValence::told(stretches);
+        }
+        let (last, mut settled) = (stretch_of(proofs, sums), Vec::new());
+        for n in valences.iter().copied() {
+            let own = stretches.iter().find(|own| own.from <= n && own.to >= Some(n));
+            let own = own.filter(|own| own.verdict != Decision::Undecided || !last.decides(n)).unwrap_or(&last);
+            push(&mut settled, Stretch { from: n, to: Some(n), ..own.clone() });
+        }
+        EveryValence::told(settled)
+    }
+
+    /// Where C1 is not decided at a valence by itself, but is for all from one on, it is decided there, too.
+    pub fn settle(&self, n: usize, verdicts: &mut [Verdict]) {
+        let Some(last) = self.stretches.last().filter(|last| last.decides(n)) else { return };
+        for own in verdicts.iter_mut().filter(|own| own.claim == C1 && own.verdict == Decision::Undecided) {
+            own.verdict = last.verdict;
+            own.evidence = says(last.verdict == Decision::Proved);
+            own.why.clone_from(&last.why);
+        }
     }
 
     fn told(stretches: Vec<Stretch>) -> EveryValence {
@@ -62,6 +76,17 @@ impl EveryValence {
     pub fn is_proved(&self) -> bool {
         self.stretches.iter().all(|stretch| stretch.verdict == Decision::Proved)
     }
+}
+
+/// What is known of all valences from one on.
+fn stretch_of(proofs: &Proofs, sums: &[RuleSum]) -> Stretch {
+    let tail = proofs.tail(sums.iter().all(|sum| sum.identity));
+    let (from, verdict, why) = match tail.c1 {
+        Outcome::Proved(how) => (tail.from, Decision::Proved, how),
+        Outcome::Refuted { witness } => (tail.from, Decision::Refuted, witness),
+        Outcome::Undecided { at } => (LAST_SINGLE + 1, Decision::Undecided, at),
+    };
+    Stretch { from, to: None, verdict, why: vec![why] }
 }
 
 fn singles(
@@ -104,6 +129,11 @@ impl Stretch {
             Some(to) => format!("n = {}..{to}", self.from),
             None => format!("every n >= {}", self.from),
         }
+    }
+
+    /// Whether it decides a valence among all from one on.
+    fn decides(&self, n: usize) -> bool {
+        self.to.is_none() && self.from <= n && self.verdict != Decision::Undecided
     }
 
     fn is_before(&self, next: &Stretch) -> bool {
