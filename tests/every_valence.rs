@@ -105,3 +105,39 @@ fn a_scheme_that_is_not_c1_on_regular_meshes_is_never_proved() {
     let found = every(&parse(&wide));
     assert!(found.stretches.iter().all(|own| own.verdict != Decision::Proved), "{found:?}");
 }
+
+/// What cancels may have no value at one n: nothing is then said of all of them.
+#[test]
+fn weights_without_a_value_at_some_valence_are_not_proved_for_all() {
+    let text = catalogue::scheme("loop").unwrap().text.split("[[claims]]").next().unwrap();
+    let beta = "beta = \"(5/8 - (3/8 + cos(2*pi/n)/4)^2)/n\"";
+    assert!(text.contains(beta));
+    let with = |factor: &str| parse(&text.replace(beta, &beta.replace(")/n\"", &format!(")/n{factor}\""))));
+    for factor in [
+        "*(n-13)/(n-13)",
+        " + 0/(n - 50)",
+        " + 0*sqrt((n-20)^2 - 1/2)",
+        "*(cos(52*pi/n)-1)/(cos(52*pi/n)-1)",
+        " + 1/(n-200) - 1/(n-200)",
+    ] {
+        let found = every(&with(factor));
+        assert_eq!(found.statement, "proved for n = 3..12; undecided for every n >= 13", "{factor}: {found:?}");
+    }
+    for factor in ["*(n+5)/(n+5)", "*(n-2)/(n-2)", "*(2*n-19)/(2*n-19)"] {
+        assert_eq!(every(&with(factor)).statement, "proved for every n >= 3", "{factor}");
+    }
+}
+
+/// cos(2 pi/n) is above 1/2 for n > 6; in floating numbers 10^17 swallows it, and another weight would be taken.
+#[test]
+fn conditions_are_not_decided_by_floating_numbers() {
+    let text = catalogue::scheme("loop").unwrap().text.split("[[claims]]").next().unwrap();
+    let own = "(5/8 - (3/8 + cos(2*pi/n)/4)^2)/n";
+    let side = "(10^17 + cos(2*pi/n)) - 10^17";
+    let cases = format!(
+        "[let.beta]\n\"n <= 6\" = \"{own}\"\n\"n > 6 and {side} > 1/2\" = \"{own}\"\n\"n > 6 and {side} <= 1/2\" = \"1/(100*n)\""
+    );
+    let scheme = parse(&text.replace("[let]\n", "").replace(&format!("beta = \"{own}\""), &cases));
+    let found = only(&scheme, &[3, 7, 8, 12]);
+    assert!(found.stretches.iter().all(|own| own.verdict != Decision::Refuted), "{found:?}");
+}

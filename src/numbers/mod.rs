@@ -29,6 +29,7 @@ mod ring;
 pub mod roots;
 mod roots_of_unity;
 mod sum;
+mod total;
 pub mod univariate;
 mod world;
 
@@ -44,6 +45,7 @@ pub use quotient::{EnclosedParameter, ParameterWorld, Quotient};
 pub use ring::{PerFrequency, RingWorld, Series};
 pub use roots_of_unity::RootsOfUnity;
 pub use sum::sum;
+pub use total::Total;
 pub use univariate::Univariate;
 pub use world::{Angle, World, square_part};
 

@@ -10,6 +10,7 @@ use super::spectrum::order::at_once;
 use super::spectrum::refutation::{against_c1, is_effective};
 use crate::analysis::Analyzer;
 use crate::analysis::exact::ExactAnalysis;
+use crate::analysis::exact::formulas::GENERIC;
 
 /// What is proved of a scheme, whatever the valence.
 pub struct Proofs<'p, 's> {
@@ -60,6 +61,8 @@ impl<'p, 's> Proofs<'p, 's> {
     }
 
     fn attempt(&self, affine: bool) -> Result<Tail, String> {
+        let defined = self.analyzer.scheme().with_values().book.is_defined_like(GENERIC as i64);
+        defined.map_err(|fault| format!("weights are not seen to have values at every n, {}", fault.label))?;
         let (from, except, order) = at_once(self.analyzer, self.effective);
         let clear = |from: usize| from.max(except.map_or(3, |n| n + 1));
         let tail = match order {

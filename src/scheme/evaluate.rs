@@ -3,7 +3,7 @@
 use super::formula::{Condition, Failure, Formula, Names};
 use super::{BoundaryClaim, Cases, Claim, Entry, Pick, Placed, RuleBook, Scheme, Weights};
 use crate::fault::Fault;
-use crate::numbers::{Laurent, Number, Trouble};
+use crate::numbers::{Enclosure, Laurent, Number, Trouble};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -30,6 +30,9 @@ impl<W: Number> Place<W> {
         Place { variable, count, value: W::whole(count), index: W::whole(0) }
     }
 }
+
+/// The bits of numbers in conditions that the exact world has not.
+const BITS: usize = 256;
 
 struct Scope<'a, W> {
     book: &'a RuleBook,
@@ -113,10 +116,10 @@ impl RuleBook {
         Fault::at(placed.place(failure.span), format!("{}{where_}", failure.trouble), format!("in `{shown}`"))
     }
 
-    /// Whether a condition holds at a count, decided exactly where the exact world has its sides.
+    /// Whether a condition holds at a count, decided exactly where the exact world has its sides, else by enclosures.
     ///
     /// # Errors
-    /// When a side has no value.
+    /// When a side has no value, or enclosures don't tell.
     pub(super) fn holds(
         &self,
         condition: &Condition,
@@ -129,8 +132,8 @@ impl RuleBook {
         if let Ok(holds) = condition.holds(&Scope::new(self, &exact, &inner, &known)) {
             return Ok(holds);
         }
-        let (approx, known) = (Place::<f64>::at(variable, count), RefCell::new(BTreeMap::new()));
-        let holds = condition.holds(&Scope::new(self, &approx, &inner, &known));
+        let (enclosed, known) = (Place::<Enclosure<BITS>>::at(variable, count), RefCell::new(BTreeMap::new()));
+        let holds = condition.holds(&Scope::new(self, &enclosed, &inner, &known));
         holds.map_err(|failure| {
             let at = variable.map_or(String::new(), |name| format!(" at {name} = {count}"));
             Fault::at(span.clone(), format!("{}{at}", failure.trouble), "in this condition")

@@ -10,6 +10,7 @@ mod check;
 mod claim;
 mod classification;
 pub mod curve;
+mod defined;
 mod evaluate;
 mod flatness;
 pub mod formula;

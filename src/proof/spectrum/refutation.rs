@@ -30,7 +30,7 @@ pub fn against_c1(exact: &ExactAnalysis, valence: usize, effective: bool) -> Opt
     let alone = leading.iter().all(|e| e.frequency == first.frequency);
     let functions: usize = leading.iter().map(|e| functions(e, valence)).sum();
     match first.frequency {
-        0 if alone && functions == 1 => Some(format!(
+        0 if alone && functions == 1 && has_one_largest_block(first) => Some(format!(
             "frequency 0 leads: after 1 its {} is larger in modulus than {}: limits lie along a half line, {SUPPOSED}",
             in_words(first),
             rest(exact, first)
@@ -72,6 +72,12 @@ fn functions(e: &ExactEigenvalue, valence: usize) -> usize {
     let blocks = e.structure.map_or(1, |structure| if structure.largest == 1 { structure.geometric } else { 1 });
     let real = e.frequency == 0 || 2 * e.frequency == valence;
     blocks * if real { 1 } else { 2 }
+}
+
+/// Whether an eigenvalue of frequency 0 or n/2 has no room for a second block as large as its largest.
+fn has_one_largest_block(e: &ExactEigenvalue) -> bool {
+    let largest = e.structure.map_or(1, |structure| structure.largest);
+    e.algebraic.is_some_and(|times| times < 2 * largest)
 }
 
 fn in_words(e: &ExactEigenvalue) -> String {

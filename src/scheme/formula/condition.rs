@@ -89,7 +89,7 @@ impl Condition {
         self.any_of.iter().flatten().flat_map(|c| c.left.names().chain(c.right.names()))
     }
 
-    /// Whether the condition holds.
+    /// Whether the condition holds. What stands after a comparison that fails, up to the next `or`, is not looked at.
     ///
     /// # Errors
     /// When a side has no value, or this world can't compare the two.
@@ -100,7 +100,10 @@ impl Condition {
                 let (left, right) = (comparison.left.evaluate(names)?, comparison.right.evaluate(names)?);
                 let unknown = Trouble::BeyondThisWorld("the two sides can't be compared");
                 let order = left.order(&right).ok_or(Failure { trouble: unknown, span: 0..self.text.len() })?;
-                holds &= comparison.relation.holds(order);
+                holds = comparison.relation.holds(order);
+                if !holds {
+                    break;
+                }
             }
             if holds {
                 return Ok(true);
