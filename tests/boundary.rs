@@ -306,7 +306,7 @@ impl Piece {
             Site::Vertex(at) => refinement.passes()[0].vertex_row(&mesh, edge(at)),
             Site::Edge(at) => refinement.passes()[0].edge_row(&mesh, edge(at)),
             Site::Face(at) => refinement.passes()[0].face_row(&mesh, edge(at)),
-            Site::Corner(_) => panic!("no corners here"),
+            site => panic!("{site:?}"),
         }
         .unwrap()
     }

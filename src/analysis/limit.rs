@@ -9,7 +9,7 @@
 //! these are no neighbours.
 
 use super::places::{LabelledMask, Place, PlaceMasks, Places, point_at};
-use crate::mesh::{Centre, Connectivity, Cycle, HalfEdgeMesh, Lattice, Tagged, sides};
+use crate::mesh::{Centre, Connectivity, Cycle, HalfEdgeMesh, Lattice, Split, Tagged, sides};
 use crate::refine::{Level, NotRefinable, Obstacle, Refiner, Route, cycle_of, lattice_of};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -119,7 +119,11 @@ impl<'a> Limits<'a> {
         // points on the faces of two vertices that are moved must not be the same
         let flat = usize::from(self.refiner.moves_points(&level.mesh, &level.tags));
         let first = ending.max(sizes).max(usize::from(special && self.near)).max(flat);
-        first.saturating_add(apart + usize::from(dual))
+        let steps = first.saturating_add(apart + usize::from(dual));
+        // masks on a boundary hold where it stands as it did, not where its edges are still to be cut
+        let turning = self.refiner.splits().any(Split::cuts_in_turns) && self.refiner.steps_of_cycle() == 2;
+        let cut = turning && !level.mesh.is_closed();
+        steps.saturating_add(usize::from(cut && (steps % 2 == 1) != level.tags.are_turned()))
     }
 
     /// Whether every vertex, and whatever is special, is alone as far as the masks reach.

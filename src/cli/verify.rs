@@ -88,7 +88,7 @@ impl Verify {
         }
         let plain = Refiner::new(&scheme, book.as_ref()).map_err(|wrong| refused(&scheme, wrong))?;
         if self.boundary_faces.is_some() && !(plain.boundary().is_some() && plain.keeps_boundary()) {
-            let why = "there are no masks at a boundary to check: the scheme has no boundary rules, or its splits turn the boundary";
+            let why = "there are no masks at a boundary to check: the scheme has no boundary rules, or the boundary recedes under its splits";
             return Err(failure(format!("{}: {why}", scheme.book.title)));
         }
         let own = meshes.first().map(|(_, level)| boundary_faces_of(&level.mesh));
@@ -122,10 +122,7 @@ impl Verify {
         }
         let asked = self.boundary_faces.as_ref().map(|list| list.0.clone());
         let faces = asked.or(own).unwrap_or_else(|| (1..=6).collect());
-        let fan = |kind: fn(usize) -> FanKind| faces.iter().map(move |faces| kind(*faces));
-        places.extend(fan(|faces| FanKind::Crease { faces }).map(Place::Fan));
-        places.extend(fan(|faces| FanKind::Corner { faces }).map(Place::Fan));
-        places.extend(fan(|faces| FanKind::Dart { faces }).filter(|kind| kind.faces() >= 3).map(Place::Fan));
+        places.extend(FanKind::each(&faces, refiner.keeps_edges()).into_iter().map(Place::Fan));
         places
     }
 

@@ -5,8 +5,11 @@
 //! labels are those of the patch, and of sector k only the points (i, 0) of the last spoke are there. A boundary is a crease
 //! with nothing beyond it: a vertex on a crease inside a mesh has such a half-disc on either side. At a *dart* it is the whole disc of
 //! n sectors, and a crease runs along spoke 0 and ends at the centre.
+//!
+//! Splits that turn the lattice leave a *turned* half-disc in between: its boundary runs along the diagonals i = j of the sectors 0 and k, of which
+//! only the halves between them are there. It bisects the faces there, and its edges lead from (m, m) to (m + 1, m + 1).
 
-use super::{Canonical, Connectivity, Label, Lattice, PatchEdge, Placement, Site};
+use super::{Canonical, Connectivity, Label, Lattice, PatchEdge, Placement, Site, Split, Turn};
 
 /// What kind of vertex the centre is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -29,6 +32,17 @@ pub enum FanKind {
 }
 
 impl FanKind {
+    /// The kinds with these numbers of faces, as far as there are such: creases, corners, and darts where creases can run inside a mesh.
+    pub fn each(faces: &[usize], creases_inside: bool) -> Vec<FanKind> {
+        let mut kinds: Vec<FanKind> = faces.iter().map(|faces| FanKind::Crease { faces: *faces }).collect();
+        kinds.extend(faces.iter().map(|faces| FanKind::Corner { faces: *faces }));
+        if creases_inside {
+            kinds.extend(faces.iter().map(|faces| FanKind::Dart { faces: *faces }));
+        }
+        kinds.retain(|kind| kind.faces() >= kind.least_faces());
+        kinds
+    }
+
     /// The number of faces around the centre, which is that of sectors.
     pub fn faces(self) -> usize {
         let (FanKind::Crease { faces } | FanKind::Corner { faces } | FanKind::Dart { faces }) = self;
@@ -61,6 +75,8 @@ pub struct Fan {
     lattice: Lattice,
     kind: FanKind,
     sectors: u32,
+    /// Whether the lattice stands turned by half a sector.
+    turned: bool,
 }
 
 impl Fan {
@@ -70,7 +86,7 @@ impl Fan {
         let lattice = if lattice.has_centre() { lattice } else { Lattice::Quads };
         let least = kind.least_faces() as u32;
         let sectors = u32::try_from(kind.faces()).unwrap_or(u32::MAX >> 1).clamp(least, u32::MAX >> 1);
-        Fan { lattice, kind, sectors }
+        Fan { lattice, kind, sectors, turned: false }
     }
 
     /// The lattice that it is made of.
@@ -90,7 +106,7 @@ impl Fan {
 
     /// The number of edges at the centre.
     pub fn spokes(&self) -> u32 {
-        if self.kind.is_closed() { self.sectors } else { self.sectors + 1 }
+        self.sectors + u32::from(!self.kind.is_closed()) + u32::from(self.turned)
     }
 
     /// The centre.
@@ -104,12 +120,14 @@ impl Fan {
         if i == 0 && j == 0 { self.centre() } else { Label { sector: self.shifted(sector, shift), i, j } }
     }
 
+    /// A sector some sectors on; on a turned fan k + 1 stands for all beyond the last.
     fn shifted(&self, sector: u32, shift: i32) -> u32 {
         let (sector, sectors) = (i64::from(sector) + i64::from(shift), i64::from(self.sectors));
-        (if self.kind.is_closed() { sector.rem_euclid(sectors) } else { sector.clamp(0, sectors) }) as u32
+        let last = sectors + i64::from(self.turned);
+        (if self.kind.is_closed() { sector.rem_euclid(sectors) } else { sector.clamp(0, last) }) as u32
     }
 
-    /// The point's mirror image under the reflection that exchanges spokes 0 and k; at a dart that which fixes spoke 0.
+    /// The point's mirror image under the reflection that exchanges spokes 0 and k; at a dart that which fixes spoke 0. Not for turned fans.
     pub fn mirrored(&self, label: Label) -> Label {
         if self.lattice.is_centre(label) {
             return label;
@@ -118,12 +136,57 @@ impl Fan {
         Label { sector: self.shifted(self.sectors, -(label.sector as i32) - shift), i, j }
     }
 
-    /// Where a split puts the point `label` of the refined fan, as on the patch; one that turns the lattice has no fans.
+    /// Where a split puts the point `label` of the refined fan. On the boundary, a split that turns the lattice leaves points where they are; the
+    /// one that turns it back puts a new point on an edge, or two at its thirds, in place of those of the faces that the boundary bisects.
     pub fn birth(&self, placement: &Placement, label: Label) -> Site {
-        placement.birth(label).1.mapped(|edge| {
-            let at_centre = self.lattice.is_centre(edge.origin);
-            if at_centre { PatchEdge { origin: self.centre(), direction: 0 } } else { edge }
-        })
+        // turned the other way: so the sectors of a turned fan are counted from 0
+        let (shift, site) = placement.mirrored().birth(label);
+        let site = site.mapped(|edge| {
+            let Label { sector, i, j } = edge.origin;
+            let sector = self.shifted(sector, shift);
+            if i == 0 && j == 0 { self.spoke(0) } else { PatchEdge { origin: Label { sector, i, j }, ..edge } }
+        });
+        match site {
+            Site::Vertex(PatchEdge { origin, .. }) => {
+                let direction = self.leaving(origin).next().unwrap_or(0);
+                let edge = PatchEdge { origin, direction };
+                let kept = placement.turn == Turn::Left && self.on_boundary(origin);
+                if kept { Site::Kept(edge) } else { Site::Vertex(edge) }
+            }
+            Site::Face(edge) if self.turned => self.birth_in_face(placement.split, edge),
+            site => site,
+        }
+    }
+
+    /// Where a split of a turned fan puts the point of a face, which the boundary may bisect. Of the two triangles between (m, m) and
+    /// (m + 1, m + 1), the one at (m, m) is told by the half-edge from (m + 1, m) to (m, m + 1).
+    fn birth_in_face(&self, split: Split, edge: PatchEdge) -> Site {
+        let Label { sector, i, j } = edge.origin;
+        let m = match self.lattice {
+            Lattice::Triangles => i - 1,
+            _ => i.min(j) - 1,
+        };
+        let diagonal = match self.lattice {
+            Lattice::Triangles => j == m,
+            _ => i == j,
+        };
+        if !diagonal || (sector != 0 && sector != self.sectors) {
+            return Site::Face(edge);
+        }
+        let [near, far] = [self.along_boundary(sector, m), self.twin(self.along_boundary(sector, m))];
+        match split {
+            Split::Sqrt3 => Site::Third(if edge.direction == 2 { near } else { far }),
+            _ => Site::Edge(near),
+        }
+    }
+
+    /// The half-edge of a turned fan from (m, m) to (m + 1, m + 1) of its first or last sector.
+    fn along_boundary(&self, sector: u32, m: i32) -> PatchEdge {
+        let (first, all) = (sector == 0, self.lattice.steps().len() as u32);
+        match m {
+            0 => self.spoke(if first { 0 } else { self.sectors + 1 }),
+            _ => PatchEdge { origin: Label { sector, i: m, j: m }, direction: all },
+        }
     }
 
     /// The half-edge that leaves the centre along a spoke.
@@ -131,20 +194,54 @@ impl Fan {
         PatchEdge { origin: self.centre(), direction: spoke }
     }
 
-    /// The first and the last direction, counter-clockwise, of the half-edges that leave a point: across the boundary there is none.
-    fn directions(&self, origin: Label) -> (u32, u32) {
-        let all = self.lattice.steps().len() as u32;
-        match origin {
-            _ if self.lattice.is_centre(origin) => (0, self.spokes() - 1),
-            Label { j: 0, sector: 0, .. } if !self.kind.is_closed() => (0, all / 2),
-            Label { j: 0, sector, .. } if !self.kind.is_closed() && sector == self.sectors => (all / 2, 0),
-            _ => (0, all - 1),
-        }
+    /// Whether a point lies on the boundary; at a dart there is none.
+    fn on_boundary(&self, origin: Label) -> bool {
+        let Label { sector, i, j } = origin;
+        let along = if self.turned { i == j } else { j == 0 };
+        !self.kind.is_closed() && (self.lattice.is_centre(origin) || along && (sector == 0 || sector == self.sectors))
     }
 
-    /// The number of directions at a point, of which some may have no half-edge.
-    fn round(&self, origin: Label) -> u32 {
-        if self.lattice.is_centre(origin) { self.spokes() } else { self.lattice.steps().len() as u32 }
+    /// Whether a point of the lattice is there on a turned fan.
+    fn holds(&self, label: Label) -> bool {
+        let Label { sector, i, j } = label;
+        let (before, beyond) = (sector == 0 && j < i, sector == self.sectors && j > i || sector > self.sectors);
+        self.lattice.is_centre(label) || !before && !beyond
+    }
+
+    /// The directions of the half-edges that leave a point, counter-clockwise; at the boundary from the first that has a face to its left. On a turned
+    /// fan the directions after those of the lattice lead along the boundary, away from the centre and towards it.
+    fn leaving(&self, origin: Label) -> impl Iterator<Item = u32> + Clone {
+        let (fan, all) = (*self, self.lattice.steps().len() as u32);
+        let half = all / 2;
+        let (first, between, last) = match (self.lattice.is_centre(origin), self.on_boundary(origin), self.turned) {
+            (true, ..) => (None, 0..self.spokes(), None),
+            (_, false, _) => (None, 0..all, None),
+            (_, true, false) if origin.sector == 0 => (None, 0..half + 1, None),
+            (_, true, false) => (None, half..all + 1, None),
+            (_, true, true) if origin.sector == 0 => (Some(all), 1..half + 1, Some(all + 1)),
+            (_, true, true) => (Some(all + 1), half + 1..all + 1, Some(all)),
+        };
+        let centre = self.lattice.is_centre(origin);
+        let there = move |direction: &u32| {
+            let (di, dj) = fan.lattice.steps()[*direction as usize % all as usize];
+            centre || !fan.turned || fan.holds(fan.point(origin.sector, origin.i + di, origin.j + dj))
+        };
+        let between = between.map(move |direction| if centre { direction } else { direction % all }).filter(there);
+        first.into_iter().chain(between).chain(last)
+    }
+
+    /// The other half of an edge along the boundary of a turned fan.
+    fn twin_along_boundary(&self, PatchEdge { origin, direction }: PatchEdge) -> Option<PatchEdge> {
+        let Label { sector, i, j } = origin;
+        let back = self.lattice.steps().len() as u32 + 1;
+        let ends = |sector: u32, m: i32| PatchEdge { origin: Label { sector, i: m, j: m }, direction: back };
+        match self.lattice.is_centre(origin) {
+            true if direction == 0 => Some(ends(0, 1)),
+            true if direction == self.sectors + 1 => Some(ends(self.sectors, 1)),
+            false if direction + 1 == back => Some(ends(sector, i + 1)),
+            false if direction == back => Some(self.along_boundary(sector, j - 1)),
+            _ => None,
+        }
     }
 }
 
@@ -157,8 +254,8 @@ impl Canonical for Fan {
         Fan::birth(self, placement, label)
     }
 
-    fn on(&self, lattice: Lattice) -> Self {
-        Fan { lattice, ..*self }
+    fn before(&self, placement: &Placement) -> Self {
+        Fan { lattice: placement.from, turned: placement.from_turned, ..*self }
     }
 
     fn is_clear(&self, Label { sector, i, j }: Label, of_centre: i32, of_crease: i32) -> bool {
@@ -173,20 +270,20 @@ impl Connectivity for Fan {
     type Point = Label;
 
     fn twin(&self, edge: PatchEdge) -> PatchEdge {
-        self.lattice.twin(edge, |sector, shift| self.shifted(sector, shift))
+        let along = if self.turned { self.twin_along_boundary(edge) } else { None };
+        along.unwrap_or_else(|| self.lattice.twin(edge, |sector, shift| self.shifted(sector, shift)))
     }
 
     fn turn(&self, edge: PatchEdge) -> PatchEdge {
-        let (first, last) = self.directions(edge.origin);
-        let next = (edge.direction + 1) % self.round(edge.origin);
-        PatchEdge { direction: if edge.direction == last { first } else { next }, ..edge }
+        let mut all = self.leaving(edge.origin);
+        let next = all.clone().skip_while(|own| *own != edge.direction).nth(1);
+        PatchEdge { direction: next.or_else(|| all.next()).unwrap_or(edge.direction), ..edge }
     }
 
     fn turn_back(&self, edge: PatchEdge) -> PatchEdge {
-        let (first, last) = self.directions(edge.origin);
-        let round = self.round(edge.origin);
-        let previous = (edge.direction + round - 1) % round;
-        PatchEdge { direction: if edge.direction == first { last } else { previous }, ..edge }
+        let all = self.leaving(edge.origin);
+        let previous = all.clone().take_while(|own| *own != edge.direction).last();
+        PatchEdge { direction: previous.or_else(|| all.last()).unwrap_or(edge.direction), ..edge }
     }
 
     fn origin(&self, edge: PatchEdge) -> Label {
@@ -194,9 +291,7 @@ impl Connectivity for Fan {
     }
 
     fn has_face(&self, edge: PatchEdge) -> bool {
-        let boundary = self.lattice.is_centre(edge.origin)
-            || edge.origin.j == 0 && (edge.origin.sector == 0 || edge.origin.sector == self.sectors);
-        self.kind.is_closed() || !boundary || edge.direction != self.directions(edge.origin).1
+        !self.on_boundary(edge.origin) || self.leaving(edge.origin).last() != Some(edge.direction)
     }
 
     fn is_sharp(&self, edge: PatchEdge) -> bool {
@@ -320,7 +415,7 @@ mod tests {
     fn vertices_keep_their_place_on_the_finer_fan() {
         for fan in fans() {
             let split = if fan.lattice() == Lattice::Triangles { Split::OneToFour } else { Split::OneToN };
-            let placement = Placement::of(split, fan.lattice(), true).unwrap();
+            let placement = Placement::of(split, fan.lattice(), false).unwrap();
             for edge in edges(&fan, 2) {
                 let Label { sector, i, j } = fan.origin(edge);
                 let doubled = Label { sector, i: 2 * i, j: 2 * j };

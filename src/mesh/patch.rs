@@ -134,6 +134,10 @@ pub enum Site {
     Face(PatchEdge),
     /// At a corner: the half-edge of the face that leaves it.
     Corner(PatchEdge),
+    /// At a vertex that stays where it is: a half-edge that leaves it.
+    Kept(PatchEdge),
+    /// On an edge of the boundary, at the third that is nearer to the vertex that this half-edge leaves.
+    Third(PatchEdge),
 }
 
 impl Site {
@@ -145,6 +149,8 @@ impl Site {
             Site::Edge(edge) => Site::Edge(f(edge)),
             Site::Face(edge) => Site::Face(f(edge)),
             Site::Corner(edge) => Site::Corner(f(edge)),
+            Site::Kept(edge) => Site::Kept(f(edge)),
+            Site::Third(edge) => Site::Third(f(edge)),
         }
     }
 }
@@ -155,9 +161,9 @@ pub trait Canonical: Connectivity<Edge = PatchEdge, Point = Label> {
     fn point(&self, sector: u32, i: i32, j: i32) -> Label;
     /// Where a split puts the point `label` of the refined mesh.
     fn birth(&self, placement: &Placement, label: Label) -> Site;
-    /// The same around the centre, on another lattice.
+    /// The same around the centre on the lattice that a split starts from, as it stands.
     #[must_use]
-    fn on(&self, lattice: Lattice) -> Self;
+    fn before(&self, placement: &Placement) -> Self;
     /// Whether a point is as far from the centre and from every crease as said, in edges.
     fn is_clear(&self, label: Label, of_centre: i32, of_crease: i32) -> bool;
 }
@@ -171,8 +177,8 @@ impl Canonical for Patch {
         Patch::birth(self, placement, label)
     }
 
-    fn on(&self, lattice: Lattice) -> Self {
-        Patch { lattice, ..*self }
+    fn before(&self, placement: &Placement) -> Self {
+        Patch { lattice: placement.from, ..*self }
     }
 
     fn is_clear(&self, label: Label, of_centre: i32, _: i32) -> bool {
@@ -367,7 +373,7 @@ mod tests {
     #[test]
     fn a_new_point_lies_between_the_points_of_its_birth_place() {
         let patch = Patch::new(Lattice::Quads, 5);
-        let placement = Placement::of(crate::mesh::Split::OneToN, Lattice::Quads, true).unwrap();
+        let placement = Placement::of(crate::mesh::Split::OneToN, Lattice::Quads, false).unwrap();
         let double = |label: Label| patch.point(label.sector, 2 * label.i, 2 * label.j);
         for edge in edges(patch) {
             let fine = patch.origin(edge);
@@ -380,7 +386,7 @@ mod tests {
                     assert!(neighbours.contains(&a) && neighbours.contains(&b), "{fine:?}");
                 }
                 Site::Face(at) => assert_eq!(patch.around_face(at).len(), 4),
-                Site::Corner(_) => panic!("no corners are born here"),
+                other => panic!("{other:?}"),
             }
         }
     }

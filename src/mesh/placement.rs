@@ -33,23 +33,26 @@ pub struct Placement {
     map: [[i32; 2]; 2],
     /// Which way it turns.
     pub turn: Turn,
+    /// Whether the coarse lattice stands turned by half a sector.
+    pub from_turned: bool,
 }
 
 impl Placement {
-    /// How a split acts on a lattice; a turning one turns left or right. `None` where the split can't be applied, or makes no
-    /// regular lattice.
-    pub fn of(split: Split, from: Lattice, left: bool) -> Option<Placement> {
+    /// How a split acts on a lattice: a turning one turns left, and back to the right where the lattice stands turned. `None` where the split
+    /// can't be applied, or makes no regular lattice.
+    pub fn of(split: Split, from: Lattice, from_turned: bool) -> Option<Placement> {
         let quads = from != Lattice::Triangles;
+        let turn = if from_turned { Turn::Right } else { Turn::Left };
         let (to, m, turn) = match split {
             Split::OneToFour if !quads => (from, 2, Turn::None),
             Split::Keep => (from, 1, Turn::None),
-            Split::Sqrt3 if !quads => (from, 3, if left { Turn::Left } else { Turn::Right }),
+            Split::Sqrt3 if !quads => (from, 3, turn),
             Split::OneToN if quads => (Lattice::Quads, 2, Turn::None),
             Split::Dual if quads => (Lattice::Dual, 2, Turn::None),
             Split::FacesToVertices if from == Lattice::Quads => (Lattice::Dual, 1, Turn::None),
             Split::FacesToVertices if from == Lattice::Dual => (Lattice::Quads, 1, Turn::None),
-            Split::MidEdge if quads => (Lattice::Dual, 2, if left { Turn::Left } else { Turn::Right }),
-            Split::Sqrt2 if quads => (Lattice::Quads, 2, if left { Turn::Left } else { Turn::Right }),
+            Split::MidEdge if quads => (Lattice::Dual, 2, turn),
+            Split::Sqrt2 if quads => (Lattice::Quads, 2, turn),
             _ => return None,
         };
         let turned = match (turn, quads) {
@@ -59,13 +62,14 @@ impl Placement {
             (Turn::Left, false) => [[1, -1], [1, 2]],
             (Turn::Right, false) => [[2, 1], [-1, 1]],
         };
-        Some(Placement { split, from, to, map: turned.map(|row| row.map(|a| a * UNIT / m)), turn })
+        Some(Placement { split, from, to, map: turned.map(|row| row.map(|a| a * UNIT / m)), turn, from_turned })
     }
 
     /// The same turned the other way.
     #[must_use]
     pub fn mirrored(&self) -> Placement {
-        Placement::of(self.split, self.from, self.turn == Turn::Right).unwrap_or(*self)
+        let other = Placement::of(self.split, self.from, self.turn == Turn::Left).unwrap_or(*self);
+        Placement { from_turned: self.from_turned, ..other }
     }
 
     /// The refined lattice's steps over the coarse one's, squared, and whether anything is refined: 4 for a split that halves edges, 3
@@ -161,18 +165,33 @@ impl Cycle {
         (1..=MOST_STEPS).find_map(|steps| starts.iter().find_map(|start| Cycle::from(splits, *start, steps)))
     }
 
+    /// Whether the boundary of a mesh is refined by rules of its own, and stands as it did after all steps: under splits that keep its edges or halve
+    /// them, and those that turn the lattice and cut its edges in the second step.
+    pub fn keeps_boundary(&self) -> bool {
+        let keeps = |Placement { split, from_turned, .. }: &Placement| match split {
+            Split::OneToFour | Split::OneToN => !from_turned,
+            split => !split.recedes(),
+        };
+        self.placements.iter().all(keeps)
+    }
+
+    /// Whether edges are halved or stay in every step, so that there can be creases inside a mesh.
+    pub fn keeps_edges(&self) -> bool {
+        self.placements.iter().all(|placement| placement.split.keeps_edges())
+    }
+
     fn from(splits: &[Split], start: Lattice, steps: usize) -> Option<Cycle> {
-        let (mut lattice, mut left, mut density) = (start, true, 1);
+        let (mut lattice, mut turned, mut density) = (start, false, 1);
         let mut placements = Vec::new();
         for split in splits.iter().cycle().take(splits.len() * steps) {
-            let placement = Placement::of(*split, lattice, left)?;
-            left = left == (placement.turn == Turn::None);
+            let placement = Placement::of(*split, lattice, turned)?;
+            turned ^= placement.turn != Turn::None;
             lattice = placement.to;
             density *= placement.density();
             placements.push(placement);
         }
         let dilation = (2..=MOST_DILATION).find(|dilation| dilation * dilation == density)?;
-        (lattice == start && left).then_some(Cycle { placements, steps, dilation })
+        (lattice == start && !turned).then_some(Cycle { placements, steps, dilation })
     }
 
     /// The lattice that it starts from and comes back to.
@@ -214,6 +233,7 @@ mod tests {
                 face.push(patch.origin(edge));
                 return face;
             }
+            Site::Kept(_) | Site::Third(_) => panic!("a patch has no boundary"),
         };
         points.sort_unstable();
         points

@@ -13,8 +13,8 @@ pub struct Tags {
     sharp: Vec<(u32, f64)>,
     /// The vertices that are corners, in order.
     corners: Vec<u32>,
-    /// Whether a sqrt3 step has left the boundary's edges whole, so that the next one cuts them into three.
-    thirds_next: bool,
+    /// Whether a split has turned the lattice and left the boundary's edges whole, so that the next one cuts them.
+    turned: bool,
 }
 
 /// Why a tag fits no place of a mesh.
@@ -64,7 +64,7 @@ impl Tags {
     /// From crease edges, told by any of their corners, and vertices.
     pub(super) fn of_children(mesh: &HalfEdgeMesh, sharp: Vec<(u32, f64)>, corners: Vec<u32>) -> Tags {
         let sharp = sharp.into_iter().map(|(edge, sharpness)| (first_corner(mesh, edge), sharpness)).collect();
-        Tags { sharp, corners, thirds_next: false }.in_order()
+        Tags { sharp, corners, turned: false }.in_order()
     }
 
     fn in_order(mut self) -> Tags {
@@ -86,14 +86,14 @@ impl Tags {
         self.in_order()
     }
 
-    /// No tags on a mesh whose boundary is to be cut into thirds, or not, in the next sqrt3 step.
-    pub(super) fn with_thirds_next(thirds_next: bool) -> Tags {
-        Tags { thirds_next, ..Tags::default() }
+    /// The corners after a split that turns the lattice, or turns it back; `has_boundary` says whether there is anything to be cut.
+    pub(super) fn turned(&self, has_boundary: bool) -> Tags {
+        Tags { sharp: Vec::new(), corners: self.corners.clone(), turned: has_boundary && !self.turned }
     }
 
-    /// Whether the next sqrt3 step cuts the boundary's edges into three.
-    pub fn thirds_next(&self) -> bool {
-        self.thirds_next
+    /// Whether a split has turned the lattice and left the boundary's edges whole, so that the next one cuts them.
+    pub fn are_turned(&self) -> bool {
+        self.turned
     }
 
     /// Whether there are none.

@@ -34,6 +34,8 @@ impl Counts {
             return self;
         }
         let Counts { vertices, edges, faces, corners } = self;
+        // each edge of the boundary has one corner, each other one two
+        let boundary = (2 * edges).saturating_sub(corners);
         match split {
             Split::OneToFour => Counts {
                 vertices: vertices + edges,
@@ -53,17 +55,22 @@ impl Counts {
             Split::Sqrt3 => {
                 Counts { vertices: vertices + faces, edges: edges + corners, faces: corners, corners: 3 * corners }
             }
-            Split::Sqrt3Thirds => {
-                // each edge of the boundary has one corner
-                let boundary = (2 * edges).saturating_sub(corners);
-                Counts {
-                    vertices: vertices + faces + boundary,
-                    edges: edges + corners + boundary,
-                    faces: corners,
-                    corners: 3 * corners,
-                }
+            Split::Sqrt3Thirds => Counts {
+                vertices: vertices + faces + boundary,
+                edges: edges + corners + boundary,
+                faces: corners,
+                corners: 3 * corners,
+            },
+            Split::Sqrt2 => Counts {
+                vertices: vertices + faces,
+                edges: 2 * edges,
+                faces: edges,
+                corners: 4 * edges - boundary,
+            },
+            Split::Sqrt2Halves => {
+                let inside = edges.saturating_sub(boundary);
+                Counts { vertices: vertices + faces, edges: corners, faces: inside, corners: 4 * inside }
             }
-            Split::Sqrt2 => Counts { vertices: vertices + faces, edges: corners, faces: edges, corners: 4 * edges },
             Split::MidEdge => Counts { vertices: edges, edges: corners, faces: faces + vertices, corners: 2 * corners },
             Split::FacesToVertices => Counts { vertices: faces, edges, faces: vertices, corners },
             Split::Keep => self,
@@ -100,24 +107,30 @@ impl Counts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::{Numbering, shapes};
+    use crate::mesh::{Numbering, Tags, shapes};
 
     #[test]
     fn counts_are_those_of_the_meshes_that_splits_make() {
         let shapes = [shapes::torus(4, 5, true), shapes::many_valences(), shapes::tube(3, 4, true), shapes::prism(7)];
         for (index, shape) in shapes.iter().enumerate() {
-            for split in Split::NAMED.map(|(_, split)| split).into_iter().chain([Split::Sqrt3Thirds]) {
+            for (name, plain) in Split::NAMED {
                 let mut mesh = HalfEdgeMesh::new(shape.positions.len(), shape.faces.clone()).unwrap();
-                let triangles = matches!(split, Split::OneToFour | Split::Sqrt3 | Split::Sqrt3Thirds);
-                if (triangles && index == 3) || (split.recedes() && !mesh.is_closed()) {
+                let mut tags = Tags::default();
+                let triangles = matches!(plain, Split::OneToFour | Split::Sqrt3);
+                if (triangles && index == 3) || (plain.recedes() && !mesh.is_closed()) {
                     continue;
                 }
-                for _ in 0..2 {
+                for step in 0..4 {
+                    let split = plain.at(&tags);
+                    assert_eq!(split != plain, plain.cuts_in_turns() && !mesh.is_closed() && step % 2 == 1, "{name}");
                     let expected = Counts::of(&mesh).after(split);
                     let numbering = split.numbering(&mesh, Numbering::default());
+                    assert_eq!(split.new_vertices(&mesh, &numbering) as u128, expected.vertices, "{name}");
                     let faces = split.faces(&mesh, &numbering, Vec::new());
-                    mesh = split.mesh(&mesh, &numbering, faces).unwrap();
-                    assert_eq!(Counts::of(&mesh), expected, "{split:?}, shape {index}");
+                    let new = split.mesh(&mesh, &numbering, faces).unwrap();
+                    tags = split.tags(&mesh, &tags, &new);
+                    assert_eq!(Counts::of(&new), expected, "{name}, shape {index}, step {step}");
+                    mesh = new;
                 }
             }
         }

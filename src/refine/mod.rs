@@ -194,7 +194,7 @@ impl<'a, W: Field> Refinement<'a, W> {
         let cycle = self.cycle()?;
         let mut row = vec![(label, W::whole(1))];
         for (pass, placement) in self.passes.iter().zip(&cycle.placements).rev() {
-            let mesh = mesh.on(placement.from);
+            let mesh = mesh.before(placement);
             let born = |label: Label| pass.row_at(&mesh, mesh.birth(placement, label));
             row = match row.as_slice() {
                 [(only, weight)] if *weight == W::whole(1) => born(*only)?,

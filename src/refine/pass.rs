@@ -124,6 +124,8 @@ impl<'a, W: Field> Pass<'a, W> {
             Site::Edge(edge) => self.edge_row(mesh, edge),
             Site::Face(edge) => self.face_row(mesh, edge),
             Site::Corner(edge) => self.corner_row(mesh, edge),
+            Site::Kept(edge) => Ok(vec![(mesh.origin(edge), W::whole(1))]),
+            Site::Third(edge) => self.third_row(mesh, edge),
         }
     }
 

@@ -7,7 +7,7 @@ use super::gather::Coordinate;
 use super::pass::{add_scaled, collected};
 use super::steps::{PassRefiner, standing_at};
 use super::{Buffers, Counts, Flatness, Level, NotRefinable, Obstacle, Pass, Refined, Route, Row};
-use crate::mesh::{Centre, HalfEdgeMesh, Lattice, Numbering, Split, Tags};
+use crate::mesh::{Centre, Cycle, HalfEdgeMesh, Numbering, Split, Tags};
 use crate::scheme::{RuleBook, Scheme};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -19,8 +19,7 @@ pub struct Refiner<'a> {
     scheme: &'a Scheme,
     boundary: Option<&'a RuleBook>,
     passes: Vec<PassRefiner<'a>>,
-    lattice: Lattice,
-    steps: usize,
+    cycle: Cycle,
     /// How points around special vertices are moved after a step, where the boundary file says that they are.
     flatness: Option<Arc<Flatness>>,
 }
@@ -35,7 +34,7 @@ impl<'a> Refiner<'a> {
         let passes = told.map(|told| PassRefiner::new(scheme, told, boundary)).collect::<Result<_, _>>()?;
         let cycle = super::cycle_of(scheme)?;
         let flatness = boundary.filter(|book| book.tells_flatness()).map(|_| Arc::default());
-        Ok(Refiner { scheme, boundary, passes, lattice: cycle.lattice(), steps: cycle.steps, flatness })
+        Ok(Refiner { scheme, boundary, passes, cycle, flatness })
     }
 
     /// The same with the flatness that the boundary file tells, for the kinds of vertices that meshes will have
@@ -72,12 +71,12 @@ impl<'a> Refiner<'a> {
 
     /// Whether extraordinary points are faces.
     pub fn is_dual(&self) -> bool {
-        !self.lattice.has_centre()
+        !self.cycle.lattice().has_centre()
     }
 
     /// The number of steps that bring the regular lattice back to itself.
     pub fn steps_of_cycle(&self) -> usize {
-        self.steps
+        self.cycle.steps
     }
 
     /// Whether the boundary recedes.
@@ -85,9 +84,14 @@ impl<'a> Refiner<'a> {
         self.splits().any(Split::recedes)
     }
 
-    /// Whether edges of the boundary are halved or stay in every step, by rules of their own.
+    /// Whether the boundary is refined by rules of its own, and stands as it did after the steps of a cycle.
     pub fn keeps_boundary(&self) -> bool {
-        self.splits().all(Split::keeps_boundary)
+        self.cycle.keeps_boundary()
+    }
+
+    /// Whether edges are halved or stay in every step, so that there can be creases inside a mesh.
+    pub fn keeps_edges(&self) -> bool {
+        self.cycle.keeps_edges()
     }
 
     /// Whether points near a boundary or crease depend on which vertices there are special: rules are told from these.

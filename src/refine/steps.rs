@@ -65,6 +65,8 @@ pub enum NotRefinable {
     },
     /// Creases or corners under a split that has none.
     Tags,
+    /// Creases under a split that refines the boundary alone by rules of its own.
+    Creases(String),
     /// A vertex inside the mesh with two edges, of which a split would make a face of two corners.
     TwoEdges(usize),
     /// A mesh with a boundary, under a split that has no rule for it.
@@ -90,6 +92,10 @@ impl fmt::Display for NotRefinable {
             }
             NotRefinable::Tags => f.write_str(
                 "the mesh has creases or corners; under this split the boundary recedes, and there are none",
+            ),
+            NotRefinable::Creases(name) => write!(
+                f,
+                "the mesh has creases; the split {name} turns edges, and has rules for those of the boundary alone"
             ),
             NotRefinable::TwoEdges(vertex) => {
                 write!(f, "vertex {vertex} has two edges; the split would make a face of two corners of it")
@@ -197,12 +203,17 @@ impl<'a> PassRefiner<'a> {
     /// # Errors
     /// The first face that is not fit.
     pub(super) fn fits(&self, mesh: &HalfEdgeMesh, tags: &Tags) -> Result<(), NotRefinable> {
-        if !self.split.keeps_boundary() && !tags.is_empty() {
+        let name = || self.told.split.to_string();
+        if self.split.recedes() && !tags.is_empty() {
             return Err(NotRefinable::Tags);
         }
-        let without = self.split == Split::Sqrt2 || (self.split == Split::Sqrt3 && self.boundary.is_none());
-        if without && !mesh.is_closed() {
-            return Err(NotRefinable::Boundary(self.told.split.to_string()));
+        if !self.split.keeps_edges() && !tags.creases().is_empty() {
+            return Err(NotRefinable::Creases(name()));
+        }
+        let without = self.split.cuts_in_turns() && self.boundary.is_none();
+        let between = tags.are_turned() && matches!(self.split, Split::OneToFour | Split::OneToN);
+        if (without || between) && !mesh.is_closed() {
+            return Err(NotRefinable::Boundary(name()));
         }
         let two_edges = |h: &u32| mesh.valence(*h) == 2 && mesh.boundary_at(*h).is_none();
         if self.split.makes_faces_of_vertices()

@@ -80,16 +80,18 @@ fn seen_from_next_side(patch: &Patch, site: Site) -> Site {
         Site::Vertex(edge) => Site::Vertex(patch.turn(edge)),
         Site::Edge(edge) => Site::Edge(patch.twin(edge)),
         Site::Face(edge) => Site::Face(patch.next(edge)),
-        Site::Corner(edge) => Site::Corner(edge),
+        // told from one side only
+        Site::Corner(_) | Site::Kept(_) | Site::Third(_) => site,
     }
 }
 
 /// The rule that makes the point of a site, and its place in the file.
 fn told_by(pass: &Pass<f64>, patch: &Patch, site: Site) -> (RuleKind, std::ops::Range<usize>) {
     let kind = match site {
-        Site::Vertex(_) => RuleKind::Vertex,
+        Site::Vertex(_) | Site::Kept(_) => RuleKind::Vertex,
         Site::Face(_) => RuleKind::Face,
         Site::Corner(_) => RuleKind::Corner,
+        Site::Third(_) => RuleKind::CreaseThird,
         Site::Edge(edge) => {
             let regular = pass.scheme().regular_valence();
             let irregular = [edge, patch.twin(edge)].iter().any(|half| patch.valence(*half) != regular);

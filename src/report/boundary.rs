@@ -11,7 +11,7 @@ use crate::analysis::boundary::{BoundaryAnalysis, BoundaryAnalyzer};
 use crate::analysis::exact::{ExactEigenvalue, ExactWeight};
 use crate::analysis::spectrum::Eigenvalue;
 use crate::mesh::{FanKind, Label};
-use crate::refine::{Obstacle, OrbitNames, Refinement, lattice_of};
+use crate::refine::{Obstacle, OrbitNames, Refinement, cycle_of, lattice_of};
 use crate::scheme::{RuleBook, Scheme, catalogue};
 use crate::verdicts::{
     ClaimCheck, Decision, Evidence, Outcome, Verdict, bound, c1_up_to_boundary, check_boundary_claims,
@@ -158,22 +158,19 @@ pub fn boundary(
         analyzers.push((variant, analyzer));
     }
     let mut reports = Vec::new();
-    let kinds: [fn(usize) -> FanKind; 3] =
-        [|faces| FanKind::Crease { faces }, |faces| FanKind::Corner { faces }, |faces| FanKind::Dart { faces }];
-    for of in kinds {
-        for kind in faces.iter().map(|faces| of(*faces)).filter(|kind| kind.faces() >= kind.least_faces()) {
-            for (variant, analyzer) in &analyzers {
-                let analysis = analyzer.at(kind).map_err(NoReport::of(scheme))?;
-                let exact = analyzer.exact(&analysis.local);
-                let mut own = report(variant, &analysis, exact, &names, digits);
-                let claims = check_boundary_claims(&variant.book, &analysis, &own.verdict);
-                let s = analyzer.flatness(kind).map_err(NoReport::of(scheme))?;
-                own.flatness = (s > 0.0).then_some(s);
-                own.claims = claims.map_err(|fault| NoReport::Faults(variant.book.faults(vec![fault])))?;
-                reports.push(own);
-            }
-            done();
+    let creases_inside = cycle_of(scheme).map_err(NoReport::of(scheme))?.keeps_edges();
+    for kind in FanKind::each(faces, creases_inside) {
+        for (variant, analyzer) in &analyzers {
+            let analysis = analyzer.at(kind).map_err(NoReport::of(scheme))?;
+            let exact = analyzer.exact(&analysis.local);
+            let mut own = report(variant, &analysis, exact, &names, digits);
+            let claims = check_boundary_claims(&variant.book, &analysis, &own.verdict);
+            let s = analyzer.flatness(kind).map_err(NoReport::of(scheme))?;
+            own.flatness = (s > 0.0).then_some(s);
+            own.claims = claims.map_err(|fault| NoReport::Faults(variant.book.faults(vec![fault])))?;
+            reports.push(own);
         }
+        done();
     }
     Ok(reports)
 }

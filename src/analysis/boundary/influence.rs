@@ -22,6 +22,7 @@ type Support = BTreeSet<(i32, i32)>;
 #[derive(Clone, Debug)]
 pub struct FanInfluence {
     lattice: Lattice,
+    dilation: i32,
     reach: i32,
     /// The largest coordinate of a regular support, relative to its tile.
     extent: i32,
@@ -47,9 +48,10 @@ impl FanInfluence {
         let extent = regular.iter().flatten().map(|(i, j)| i.abs().max(j.abs())).max().unwrap_or(0);
         let heights = extent + stencils.clear_of_crease();
         let far = (2 * heights).max(2 * extent + stencils.clear_of_centre()) + rim_width(extent);
-        let levels = (0..).find(|level| 1 << level >= far).unwrap_or(0);
+        let dilation = stencils.dilation();
+        let levels = (0..).find(|level| dilation.pow(*level) >= far).unwrap_or(0);
         let beside = HalfPlane::new(refinement, stencils, lattice).supports(&regular, heights)?;
-        Ok(FanInfluence { lattice, reach: stencils.reach(), extent, regular, beside, levels })
+        Ok(FanInfluence { lattice, dilation, reach: stencils.reach(), extent, regular, beside, levels })
     }
 
     /// The points of the full neighbourhood of a fan: the centre, then ring by ring, counter-clockwise from spoke 0.
@@ -62,7 +64,7 @@ impl FanInfluence {
             let mut fine = self.rim(rows.patch, level);
             fine.append(&mut outside);
             outside = sources(rows, &fine)?;
-            outside.retain(|label| self.ring(*label) > 1 << (level - 1));
+            outside.retain(|label| self.ring(*label) > self.dilation.pow(level - 1));
         }
         outside.extend(inside(rows.patch, 0, 1));
         let mut closed = closure(rows, outside)?;
@@ -80,14 +82,14 @@ impl FanInfluence {
 
     /// The points of a level on the faces around the centre that may be made of points outside of these.
     fn rim(&self, fan: Fan, level: u32) -> BTreeSet<Label> {
-        let (last, width) = (1 << level, 4 * self.reach);
+        let (last, width) = (self.dilation.pow(level), 2 * self.dilation * self.reach);
         let first = if last <= 2 * width { 0 } else { last - width };
         inside(fan, first, last)
     }
 
     /// What the tiles at the rim of the finest level have outside of the faces around the centre.
     fn outside_at_the_finest(&self, fan: Fan) -> BTreeSet<Label> {
-        let last = 1 << self.levels;
+        let last = self.dilation.pow(self.levels);
         let mut outside = BTreeSet::new();
         for sector in 0..fan.sectors() {
             for tile in rim_tiles(self.lattice, last, rim_width(self.extent)) {
@@ -177,7 +179,7 @@ struct HalfPlane<'a, 's> {
     rows: FanRows<'a, 's>,
     stencils: &'a RegularStencils,
     lattice: Lattice,
-    /// By the parity of i and by j: the old points, i relative to i div 2.
+    /// By the remainder of i and by j: the old points, i relative to i div d, d being the dilation.
     known: HashMap<(i32, i32), Vec<(i32, i32)>>,
 }
 
@@ -190,17 +192,18 @@ impl<'a, 's> HalfPlane<'a, 's> {
 
     /// The old points that the new point (i, j) is made of.
     fn sources(&mut self, i: i32, j: i32) -> Result<Vec<(i32, i32)>, Obstacle> {
-        let half = i.div_euclid(2);
+        let d = self.stencils.dilation();
+        let (base, base_j) = self.stencils.base(i, j);
         if j >= self.stencils.clear_of_crease() {
             let own = self.stencils.at(i, j).iter();
-            return Ok(own.map(|((di, dj), _)| (half + di, j.div_euclid(2) + dj)).collect());
+            return Ok(own.map(|((di, dj), _)| (base + di, base_j + dj)).collect());
         }
-        let key = (i.rem_euclid(2), j);
+        let key = (i.rem_euclid(d), j);
         if !self.known.contains_key(&key) {
-            let row = self.rows.walked_row(Label { sector: 0, i: 2 * FAR + key.0, j })?;
+            let row = self.rows.walked_row(Label { sector: 0, i: d * FAR + key.0, j })?;
             self.known.insert(key, row.iter().map(|(old, _)| (old.i - FAR, old.j)).collect());
         }
-        Ok(self.known[&key].iter().map(|(di, dj)| (half + di, *dj)).collect())
+        Ok(self.known[&key].iter().map(|(di, dj)| (base + di, *dj)).collect())
     }
 
     /// The supports of the tiles at each height below `heights`: the least sets that hold the tile's points and what those
@@ -212,7 +215,7 @@ impl<'a, 's> HalfPlane<'a, 's> {
         loop {
             let mut grown = supports.clone();
             for (j, down) in (0..heights).flat_map(|j| [(j, false), (j, true)]) {
-                for child in tile(j, down).children(self.lattice, 2) {
+                for child in tile(j, down).children(self.lattice, self.stencils.dilation()) {
                     let kind = usize::from(child.down);
                     let own: Vec<(i32, i32)> = match supports.get(child.j as usize) {
                         Some(own) => own[kind].iter().map(|(x, y)| (child.i + x, *y)).collect(),

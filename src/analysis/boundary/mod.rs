@@ -61,11 +61,10 @@ impl<'a> BoundaryAnalyzer<'a> {
     /// Prepares the analysis of a scheme with the rules of a boundary file.
     ///
     /// # Errors
-    /// When the boundary recedes or is turned; when a weight has no value, a rule reaches over the boundary, or stencils reach too far.
+    /// When the boundary recedes; when a weight has no value, a rule reaches over the boundary, or stencils reach too far.
     pub fn new(scheme: &'a Scheme, book: &'a RuleBook) -> Result<BoundaryAnalyzer<'a>, Obstacle> {
-        let plain = cycle_of(scheme)?;
-        if plain.dilation != 2 || plain.placements.iter().any(|p| !p.split.keeps_boundary() || !p.from.has_centre()) {
-            let why = "under its splits the boundary recedes, or is turned, and there is no analysis at a boundary";
+        if !cycle_of(scheme)?.keeps_boundary() {
+            let why = "under its splits the boundary recedes, and there is no analysis there";
             return Err(Obstacle::Limit(format!("{why}: {}", scheme.split_in_words())));
         }
         let refinement = Refinement::new(scheme, Some(book));
@@ -105,6 +104,10 @@ impl<'a> BoundaryAnalyzer<'a> {
             let least = kind.least_faces();
             let message = format!("the number of faces at a {name} must be from {least} to {MAX_FACES}, not {faces}");
             return Err(Obstacle::Limit(message));
+        }
+        if kind.is_closed() && !self.refinement.cycle()?.keeps_edges() {
+            let why = "edges inside a mesh are turned, so that no crease can end there";
+            return Err(Obstacle::Limit(format!("under these splits {why}: {}", self.scheme().split_in_words())));
         }
         let rows = FanRows::new(&self.refinement, &self.stencils, Fan::new(self.lattice, kind));
         let labels = self.influence.labels(&rows)?;

@@ -4,6 +4,7 @@
 //! half-edges are twins. All is arithmetic on corners; the only thing looked up is the number of an edge. Old vertices come first, then the
 //! points of edges, in the order of their first corners, then those of faces.
 
+mod cut;
 mod dual;
 mod faces_to_vertices;
 mod mid_edge;
@@ -16,7 +17,7 @@ mod sqrt3;
 pub use numbering::Numbering;
 
 use super::half_edge::NONE;
-use super::{Faces, HalfEdgeMesh, MAX_CORNERS, NotAMesh, Tags};
+use super::{Connectivity, Faces, HalfEdgeMesh, MAX_CORNERS, NotAMesh, Tags};
 
 /// The splits that there is topology for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,8 +32,10 @@ pub enum Split {
     Sqrt3,
     /// The same after such a step: each edge of the boundary is cut into three, and its triangle has no new point.
     Sqrt3Thirds,
-    /// A new point in each face, edges inside the mesh become quads. The boundary recedes.
+    /// A new point in each face, edges inside the mesh become quads; edges of the boundary stay.
     Sqrt2,
+    /// The same after such a step: each edge of the boundary is halved, and its triangle has no new point.
+    Sqrt2Halves,
     /// A new point on each edge; faces and vertices become faces. The boundary recedes.
     MidEdge,
     /// A new point in each face; vertices become faces: the dual mesh. The boundary recedes.
@@ -102,17 +105,26 @@ impl Split {
 
     /// The split of a step on a mesh with these tags.
     pub fn at(self, tags: &Tags) -> Split {
-        if self == Split::Sqrt3 && tags.thirds_next() { Split::Sqrt3Thirds } else { self }
+        match self {
+            Split::Sqrt3 if tags.are_turned() => Split::Sqrt3Thirds,
+            Split::Sqrt2 if tags.are_turned() => Split::Sqrt2Halves,
+            _ => self,
+        }
     }
 
     /// Whether the boundary recedes; under other splits it is refined by rules of its own.
     pub fn recedes(self) -> bool {
-        matches!(self, Split::Dual | Split::Sqrt2 | Split::MidEdge | Split::FacesToVertices)
+        matches!(self, Split::Dual | Split::MidEdge | Split::FacesToVertices)
     }
 
-    /// Whether edges of the boundary, and so of creases, are halved or stay in every step.
-    pub fn keeps_boundary(self) -> bool {
+    /// Whether edges are halved or stay in every step, so that there can be creases inside a mesh.
+    pub fn keeps_edges(self) -> bool {
         matches!(self, Split::OneToFour | Split::OneToN | Split::Keep)
+    }
+
+    /// Whether it turns the lattice and keeps the boundary's edges, which are cut in every second step.
+    pub fn cuts_in_turns(self) -> bool {
+        matches!(self, Split::Sqrt3 | Split::Sqrt3Thirds | Split::Sqrt2 | Split::Sqrt2Halves)
     }
 
     /// The number of corners of the new mesh.
@@ -125,7 +137,7 @@ impl Split {
             Split::OneToFour | Split::OneToN => old.checked_mul(4),
             Split::Dual => dual::new_corners(mesh),
             Split::Sqrt3 | Split::Sqrt3Thirds => old.checked_mul(3),
-            Split::Sqrt2 | Split::MidEdge => old.checked_mul(2),
+            Split::Sqrt2 | Split::Sqrt2Halves | Split::MidEdge => old.checked_mul(2),
             Split::FacesToVertices | Split::Keep => Some(old),
         };
         corners.filter(|corners| *corners <= MAX_CORNERS).ok_or(NotAMesh::TooLarge)
@@ -135,13 +147,12 @@ impl Split {
     pub fn numbering(self, mesh: &HalfEdgeMesh, old: Numbering) -> Numbering {
         let numbering = Numbering::in_buffers(mesh, old);
         match self {
-            Split::Sqrt2 if !mesh.is_closed() => numbering.keeping(sqrt2::kept_vertices(mesh)),
             Split::FacesToVertices if !mesh.is_closed() => numbering.keeping(faces_to_vertices::kept_faces(mesh)),
             Split::MidEdge if !mesh.is_closed() => {
                 let parting = mid_edge::parting_edges(mesh, &numbering);
                 numbering.keeping(parting)
             }
-            Split::Sqrt3Thirds => sqrt3::with_thirds(mesh, numbering),
+            Split::Sqrt3Thirds | Split::Sqrt2Halves => cut::numbering(mesh, numbering),
             _ => numbering,
         }
     }
@@ -153,9 +164,9 @@ impl Split {
             Split::OneToFour => mesh.vertices() + numbering.edges(),
             Split::OneToN => mesh.vertices() + numbering.edges() + mesh.faces().len(),
             Split::Dual => mesh.twins().len(),
-            Split::Sqrt3 => mesh.vertices() + mesh.faces().len(),
-            Split::Sqrt3Thirds => mesh.vertices() + kept(mesh.faces().len()) + 2 * numbering.thirds().len(),
-            Split::Sqrt2 => kept(mesh.vertices()) + mesh.faces().len(),
+            Split::Sqrt3 | Split::Sqrt2 => mesh.vertices() + mesh.faces().len(),
+            Split::Sqrt3Thirds => mesh.vertices() + kept(mesh.faces().len()) + 2 * numbering.cut().len(),
+            Split::Sqrt2Halves => mesh.vertices() + kept(mesh.faces().len()) + numbering.cut().len(),
             Split::MidEdge => numbering.edges() + numbering.kept().map_or(0, <[u32]>::len),
             Split::FacesToVertices => kept(mesh.faces().len()),
             Split::Keep => mesh.vertices(),
@@ -175,14 +186,18 @@ impl Split {
                 Birth::Edge(numbering.first_corners()[edge])
             }
             Split::FacesToVertices => face(kept(point)),
-            Split::Sqrt2 => {
-                let vertices = numbering.kept().map_or(mesh.vertices(), <[u32]>::len);
-                if point < vertices { vertex(kept(point)) } else { face(point - vertices) }
-            }
-            Split::Sqrt3 if point < mesh.vertices() => sqrt3::vertex(mesh, point),
+            Split::Sqrt3 | Split::Sqrt2 if point < mesh.vertices() => cut::vertex(mesh, point),
             _ if point < mesh.vertices() => vertex(point),
-            Split::Sqrt3 => face(point - mesh.vertices()),
-            Split::Sqrt3Thirds => sqrt3::birth(mesh, numbering, point - mesh.vertices()),
+            Split::Sqrt3 | Split::Sqrt2 => face(point - mesh.vertices()),
+            Split::Sqrt3Thirds => match cut::place(mesh, numbering, point - mesh.vertices(), 2) {
+                Ok(in_face) => in_face,
+                Err((h, 0)) => Birth::Third(h),
+                Err((h, _)) => Birth::Third(mesh.twin(h)),
+            },
+            Split::Sqrt2Halves => match cut::place(mesh, numbering, point - mesh.vertices(), 1) {
+                Ok(in_face) => in_face,
+                Err((h, _)) => Birth::Edge(h),
+            },
             _ if point < edges => Birth::Edge(numbering.first_corners()[point - mesh.vertices()]),
             _ => face(point - edges),
         }
@@ -198,6 +213,7 @@ impl Split {
             Split::Sqrt3 => sqrt3::faces(mesh, buffer),
             Split::Sqrt3Thirds => sqrt3::faces_with_thirds(mesh, numbering, buffer),
             Split::Sqrt2 => sqrt2::faces(mesh, numbering, buffer),
+            Split::Sqrt2Halves => sqrt2::faces_with_halves(mesh, numbering, buffer),
             Split::MidEdge => mid_edge::faces(mesh, numbering, buffer),
             Split::FacesToVertices => faces_to_vertices::faces(mesh, numbering, buffer),
             Split::Keep => faces.clone(),
@@ -232,14 +248,14 @@ impl Split {
         Ok(HalfEdgeMesh::from_parts(faces, twin, leaving))
     }
 
-    /// The tags of the new mesh: an edge's two children have one step less of its sharpness, corners stay. Splits under which the
-    /// boundary recedes have no creases.
+    /// The tags of the new mesh: an edge's two children have one step less of its sharpness, corners stay. Splits that turn the lattice have
+    /// corners alone, those under which the boundary recedes neither.
     pub fn tags(self, mesh: &HalfEdgeMesh, tags: &Tags, new: &HalfEdgeMesh) -> Tags {
         let children: fn(&HalfEdgeMesh, u32) -> [u32; 2] = match self {
             Split::OneToFour => one_to_four::edge_children,
             Split::OneToN => one_to_n::edge_children,
             Split::Keep => return tags.clone(),
-            Split::Sqrt3 => return Tags::with_thirds_next(true),
+            _ if self.cuts_in_turns() => return tags.turned(!mesh.is_closed()),
             _ => return Tags::default(),
         };
         let lasting = tags.creases().iter().filter(|(_, sharpness)| *sharpness > 1.0);
@@ -255,12 +271,12 @@ impl Split {
         let of_vertices = (!closed && self.makes_faces_of_vertices())
             .then(|| places((0..mesh.vertices() as u32).filter(inside).collect(), mesh.vertices()));
         let kept = match self {
-            Split::Sqrt2 if !closed => Some(places(sqrt2::kept_vertices(mesh), mesh.vertices())),
+            Split::Sqrt2Halves => Some(places(cut::kept_faces(mesh), mesh.faces().len())),
             Split::FacesToVertices if !closed => Some(places(faces_to_vertices::kept_faces(mesh), mesh.faces().len())),
             _ => None,
         };
         let offset = match self {
-            Split::Sqrt2 => kept.as_ref().map_or(mesh.vertices(), |kept| kept.iter().filter(|at| **at != NONE).count()),
+            Split::Sqrt2 | Split::Sqrt2Halves => mesh.vertices(),
             Split::OneToN => mesh.vertices() + mesh.edge_count(),
             Split::Dual => mesh.faces().len() + mesh.edges().filter(|h| mesh.twins()[*h as usize] != NONE).count(),
             Split::MidEdge => mesh.faces().len(),
@@ -284,7 +300,7 @@ pub struct Becoming {
     offset: u32,
     /// The number of each vertex among those inside the mesh, where not all are.
     of_vertices: Option<Vec<u32>>,
-    /// The number of each vertex or face among those that are kept, where not all are.
+    /// The number of each face among those that are kept, where not all are.
     kept: Option<Vec<u32>>,
 }
 
@@ -297,14 +313,15 @@ impl Becoming {
         };
         match (self.split, centre) {
             (Split::Keep, _) | (Split::Dual | Split::MidEdge, Centre::Face(_)) => Some(centre),
-            (Split::OneToFour | Split::OneToN | Split::Sqrt3 | Split::Sqrt3Thirds, Centre::Vertex(_)) => Some(centre),
             (Split::OneToFour | Split::Sqrt3 | Split::Sqrt3Thirds, Centre::Face(_)) => None,
-            (Split::OneToN | Split::Sqrt2, Centre::Face(face)) => Some(Centre::Vertex(self.offset + face)),
-            (Split::Sqrt2, Centre::Vertex(vertex)) => among(&self.kept, vertex).map(Centre::Vertex),
+            (Split::OneToN | Split::Sqrt2 | Split::Sqrt2Halves, Centre::Face(face)) => {
+                among(&self.kept, face).map(|at| Centre::Vertex(self.offset + at))
+            }
             (Split::FacesToVertices, Centre::Face(face)) => among(&self.kept, face).map(Centre::Vertex),
             (Split::Dual | Split::MidEdge | Split::FacesToVertices, Centre::Vertex(vertex)) => {
                 Some(Centre::Face(self.offset + among(&self.of_vertices, vertex)?))
             }
+            (_, Centre::Vertex(_)) => Some(centre),
         }
     }
 }

@@ -15,10 +15,10 @@ pub struct Numbering {
     /// The first corner of each edge.
     first: Vec<u32>,
     edges: usize,
-    /// The vertices or faces that a receding boundary leaves, where not all; the edges where it parts faces.
+    /// The faces that a receding boundary leaves, or that have new points, where not all; the edges where it parts faces.
     kept: Option<Vec<u32>>,
-    /// The first corners of the edges that are cut into three.
-    thirds: Vec<u32>,
+    /// The first corners of the boundary's edges that are cut.
+    cut: Vec<u32>,
 }
 
 impl Numbering {
@@ -57,7 +57,7 @@ impl Numbering {
                 }
             }
         });
-        Numbering { number, edges: first.len(), first, kept: None, thirds: Vec::new() }
+        Numbering { number, edges: first.len(), first, kept: None, cut: Vec::new() }
     }
 
     /// The same with a list of what a receding boundary leaves.
@@ -65,17 +65,17 @@ impl Numbering {
         Numbering { kept: Some(kept), ..self }
     }
 
-    /// The same with the edges that are cut into three.
-    pub(super) fn with_thirds(self, thirds: Vec<u32>) -> Numbering {
-        Numbering { thirds, ..self }
+    /// The same with the boundary's edges that are cut, by their first corners.
+    pub(super) fn cutting(self, cut: Vec<u32>) -> Numbering {
+        Numbering { cut, ..self }
     }
 
-    /// The first corners of the edges that are cut into three.
-    pub(super) fn thirds(&self) -> &[u32] {
-        &self.thirds
+    /// The first corners of the boundary's edges that are cut.
+    pub(super) fn cut(&self) -> &[u32] {
+        &self.cut
     }
 
-    /// The vertices or faces that a receding boundary leaves, where not all; the edges where it parts faces.
+    /// The faces that a receding boundary leaves, or that have new points, where not all; the edges where it parts faces.
     pub(super) fn kept(&self) -> Option<&[u32]> {
         self.kept.as_deref()
     }
