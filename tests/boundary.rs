@@ -7,9 +7,8 @@ use eigenring::analysis::boundary::masks::{FanMask, TangentMasks};
 use eigenring::analysis::boundary::{BoundaryAnalysis, BoundaryAnalyzer, MAX_FACES};
 use eigenring::analysis::cores::Cores;
 use eigenring::analysis::spectrum::{Eigenvalue, Spectrum};
-use eigenring::mesh::edge_between;
-use eigenring::mesh::{Connectivity, Crease, Fan, FanKind, HalfEdgeMesh, Label, Lattice, Site, Tagged, Tags};
-use eigenring::refine::{Obstacle, Refinement, Row, lattice_of};
+use eigenring::mesh::{Connectivity, Crease, Fan, FanKind, HalfEdgeMesh, Label, Lattice, Tagged, Tags};
+use eigenring::refine::{Obstacle, Refinement, Refiner, Row, cycle_of, lattice_of};
 use eigenring::report::boundary as report_of;
 use eigenring::report::{self, Study};
 use eigenring::scheme::{RuleBook, Scheme, catalogue};
@@ -17,12 +16,13 @@ use nalgebra::{DMatrix, DVector};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
 
-const SCHEMES: [&str; 3] = ["loop", "loop-warren", "catmull-clark"];
+const SCHEMES: [&str; 5] = ["loop", "loop-warren", "catmull-clark", "sqrt3", "four-eight"];
 
 /// A scheme with its first boundary file, or with the one named: `loop/hoppe-1994`.
 fn open(name: &str) -> (Scheme, RuleBook) {
-    let (id, rules) = name.split_once('/').unwrap_or((name, "cubic"));
+    let (id, rules) = name.split_once('/').unwrap_or((name, ""));
     let scheme = catalogue::open(id).unwrap().unwrap();
+    let rules = if rules.is_empty() { &scheme.boundary[0] } else { rules };
     let book = catalogue::boundary(rules, &scheme.mesh).unwrap().unwrap();
     (scheme, book)
 }
@@ -48,11 +48,12 @@ fn dart(faces: usize) -> FanKind {
     FanKind::Dart { faces }
 }
 
-/// Kinds of every sort, the regular ones and both parities of the number of faces among them.
-fn kinds() -> Vec<FanKind> {
+/// Kinds of every sort, the regular ones and both parities of the number of faces among them; darts where creases can run inside a mesh.
+fn kinds(scheme: &Scheme) -> Vec<FanKind> {
     let creases = [1, 2, 3, 4, 5, 6, 7, 11].map(crease);
     let corners = [1, 2, 3, 4, 5].map(corner);
-    creases.into_iter().chain(corners).chain([3, 4, 5, 6, 7, 8].map(dart)).collect()
+    let darts = [3, 4, 5, 6, 7, 8].into_iter().filter(|_| cycle_of(scheme).unwrap().keeps_edges()).map(dart);
+    creases.into_iter().chain(corners).chain(darts).collect()
 }
 
 /// Numbers between -1 and 1, the same in every run.
@@ -84,7 +85,7 @@ fn each(mut visit: impl FnMut(&str, &BoundaryAnalysis)) {
     for name in variants() {
         let (scheme, book) = open(&name);
         let analyzer = BoundaryAnalyzer::new(&scheme, &book).unwrap();
-        for kind in kinds() {
+        for kind in kinds(&scheme) {
             visit(&format!("{name} {kind:?}"), &analyzer.at(kind).unwrap());
         }
     }
@@ -99,7 +100,8 @@ fn traced(refinement: &Refinement<f64>, fan: Fan, levels: u32) -> BTreeSet<Label
         let there = move |label: &Label| label.sector < fan.sectors() || !fan.kind().is_closed() && label.j == 0;
         all.filter(there).chain([fan.centre()])
     };
-    let mut points: BTreeSet<Label> = on_faces(1 << levels).collect();
+    let dilation = refinement.cycle().unwrap().dilation;
+    let mut points: BTreeSet<Label> = on_faces(dilation.pow(levels)).collect();
     for _ in 0..levels {
         let rows = points.iter().flat_map(|label| refinement.row(&fan, *label).unwrap());
         points = rows.map(|(old, _)| old).collect();
@@ -113,17 +115,26 @@ fn the_neighbourhood_is_every_point_of_influence() {
         let (scheme, book) = open(id);
         let analyzer = BoundaryAnalyzer::new(&scheme, &book).unwrap();
         let refinement = Refinement::new(&scheme, Some(&book));
-        for kind in [crease(1), crease(2), crease(4), corner(1), corner(3), dart(3), dart(5)] {
+        let cycle = cycle_of(&scheme).unwrap();
+        let levels = if cycle.dilation == 3 { [3, 4] } else { [4, 5] };
+        let tried = [crease(1), crease(2), crease(4), corner(1), corner(3), dart(3), dart(5)];
+        for kind in tried.into_iter().filter(|kind| cycle.keeps_edges() || !kind.is_closed()) {
             let local = analyzer.local_matrix(kind).unwrap();
             let own: BTreeSet<Label> = local.labels.iter().copied().collect();
-            assert_eq!(own, traced(&refinement, local.fan, 4), "{id} {kind:?}");
-            assert_eq!(own, traced(&refinement, local.fan, 5), "{id} {kind:?}");
+            levels.iter().for_each(|levels| assert_eq!(own, traced(&refinement, local.fan, *levels), "{id} {kind:?}"));
         }
-        // one more ring than the faces around the centre have
-        let per_face = if id == "catmull-clark" { 6 } else { 3 };
+        // inside, one more ring than the faces around the centre have; by sqrt(3) and 4-8 one more than that (1 + 6 n, 1 + 12 n points)
+        let (per_face, along) = match id {
+            "catmull-clark" => (6, 2),
+            "sqrt3" => (6, 1),
+            "four-eight" => (11, 3),
+            _ => (3, 2),
+        };
         for k in [1, 2, 3, 9, 64] {
-            assert_eq!(analyzer.local_matrix(crease(k)).unwrap().size(), 3 + per_face * k);
-            assert_eq!(analyzer.local_matrix(dart(k.max(3))).unwrap().size(), 1 + per_face * k.max(3));
+            assert_eq!(analyzer.local_matrix(crease(k)).unwrap().size(), 1 + along + per_face * k, "{id} {k}");
+            if cycle.keeps_edges() {
+                assert_eq!(analyzer.local_matrix(dart(k.max(3))).unwrap().size(), 1 + per_face * k.max(3));
+            }
         }
     }
 }
@@ -295,20 +306,31 @@ impl Piece {
         Piece { mesh, tags, vertices }
     }
 
-    /// The row of a new point, made on the mesh of polygons.
-    fn row(&self, fan: Fan, refinement: &Refinement<f64>, label: Label) -> Row<u32, f64> {
-        let mesh = Tagged { mesh: &self.mesh, tags: &self.tags, beyond: 0.0 };
-        let edge = |edge| {
-            let ends = [fan.origin(edge), fan.target(edge)].map(|end| self.vertices[&end]);
-            edge_between(&self.mesh, ends).unwrap()
-        };
-        match fan.birth(&refinement.cycle().unwrap().placements[0], label) {
-            Site::Vertex(at) => refinement.passes()[0].vertex_row(&mesh, edge(at)),
-            Site::Edge(at) => refinement.passes()[0].edge_row(&mesh, edge(at)),
-            Site::Face(at) => refinement.passes()[0].face_row(&mesh, edge(at)),
-            site => panic!("{site:?}"),
+    /// How the points of the refined fan near the centre are made of vertices of the mesh, by refining that: the same walks on both lead to
+    /// the same points.
+    fn rows(&self, fan: Fan, refiner: &Refiner) -> BTreeMap<Label, Row<u32, f64>> {
+        let chain = refiner.chain(&self.mesh, &self.tags, refiner.steps_of_cycle()).unwrap();
+        let tagged = Tagged { mesh: &chain.mesh, tags: &chain.tags, beyond: 0.0 };
+        let start = chain.mesh.vertex_edges()[self.vertices[&fan.centre()] as usize];
+        let sharp = tagged.sharp_spokes(start);
+        let first = *sharp.iter().find(|spoke| sharp.len() == 1 || tagged.has_face(**spoke)).unwrap();
+        let mut at = BTreeMap::new();
+        let mut waiting = vec![(fan.spoke(0), first)];
+        while let Some((edge, own)) = waiting.pop() {
+            let (label, vertex) = (fan.origin(edge), tagged.origin(own));
+            if fan.lattice().ring(label.i, label.j) > 3 {
+                continue;
+            }
+            match at.insert(label, vertex) {
+                Some(known) => assert_eq!(known, vertex, "{label:?}"),
+                None => {
+                    let (around, own) = (fan.around_vertex(edge), tagged.around_vertex(own));
+                    assert_eq!(around.len(), own.len(), "{label:?}");
+                    waiting.extend(around.iter().zip(&own).map(|(edge, own)| (fan.twin(*edge), tagged.twin(*own))));
+                }
+            }
         }
-        .unwrap()
+        at.into_iter().map(|(label, vertex)| (label, chain.row(vertex).unwrap())).collect()
     }
 }
 
@@ -317,14 +339,13 @@ impl Piece {
 fn masks_survive_a_step_on_a_mesh() {
     each(|here, analysis| {
         let (scheme, book) = open(here.split(' ').next().unwrap());
-        let refinement = Refinement::new(&scheme, Some(&book));
+        let refiner = Refiner::new(&scheme, Some(&book)).unwrap();
         let piece = Piece::of(analysis.fan, 5);
+        let rows = piece.rows(analysis.fan, &refiner);
         let points = Random(7).vector(piece.vertices.len());
         let old = |label: &Label| points[piece.vertices[label] as usize];
-        let new = |label: &Label| {
-            let row = piece.row(analysis.fan, &refinement, *label);
-            row.iter().map(|(vertex, weight)| weight * points[*vertex as usize]).sum::<f64>()
-        };
+        let new =
+            |label: &Label| rows[label].iter().map(|(vertex, weight)| weight * points[*vertex as usize]).sum::<f64>();
         let applied = |mask: &FanMask, at: &dyn Fn(&Label) -> f64| mask.iter().map(|(p, w)| w * at(p)).sum::<f64>();
         let limit = analysis.limit_mask.as_ref().unwrap();
         assert!((limit.iter().map(|(_, weight)| weight).sum::<f64>() - 1.0).abs() < 1e-14, "{here}");
@@ -423,9 +444,9 @@ fn tangents_are_what_deep_refinement_leaves() {
             assert!((seen - wanted).amax() < exact, "{here} {axis}");
         }
     });
-    // cubic: Loop's and Warren's: 6 creases, 3 corners, 6 darts each; Catmull and Clark's: 4, 2, 6. Hoppe et al.: all but the crease of
-    // two faces; Biermann et al.: all
-    assert_eq!(planes, 2 * (6 + 3 + 6) + (4 + 2 + 6) + 2 * (7 + 5 + 6) + 3 * (8 + 5 + 6));
+    // cubic: Loop's and Warren's: 6 creases, 3 corners, 6 darts each, and sqrt(3)'s without darts; Catmull and Clark's: 4, 2, 6, and 4-8's without
+    // darts. Hoppe et al.: all but the crease of two faces; Biermann et al.: all
+    assert_eq!(planes, 2 * (6 + 3 + 6) + (4 + 2 + 6) + (6 + 3) + (4 + 2) + 2 * (7 + 5 + 6) + 3 * (8 + 5 + 6));
 }
 
 /// On a fan that lies in a plane, counter-clockwise, with a little noise: the normal is that of the plane.
@@ -573,8 +594,9 @@ fn exact_and_approximate_numbers_agree() {
         let (scheme, book) = open(here.split(' ').next().unwrap());
         let analyzer = BoundaryAnalyzer::new(&scheme, &book).unwrap();
         let Ok(exact) = analyzer.exact(&analysis.local) else {
-            // fields of many cosines
-            assert!(here.contains("biermann") && analysis.fan.sectors() >= 7, "{here}");
+            // fields of many cosines, and large cores
+            let large = ["biermann", "sqrt3", "four-eight"].iter().any(|name| here.contains(name));
+            assert!(large && analysis.fan.sectors() >= 7, "{here}");
             return;
         };
         let counted: usize = exact.eigenvalues.iter().map(|e| e.algebraic.unwrap()).sum();
@@ -735,7 +757,8 @@ fn normals_of_deep_faces_converge_exactly_where_there_is_a_plane() {
             assert!(after < 0.05 * before || after < 1e-4, "{here}: {before} {after}");
         }
     });
-    assert_eq!((slowly, apart), (2 * 2 + 2, 2 * 4 + 7));
+    // Loop, Warren and sqrt(3); Catmull-Clark and 4-8
+    assert_eq!((slowly, apart), (3 * 2 + 2 * 2, 3 * 4 + 2 * 7));
 }
 
 /// What a report says is what the analysis found, in every form; without being asked for it is not there.

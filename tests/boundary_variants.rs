@@ -25,8 +25,6 @@ fn open(id: &str, rules: &str) -> (Scheme, RuleBook) {
 /// Every scheme with every boundary file that it names.
 fn variants() -> Vec<(String, Scheme, RuleBook)> {
     let schemes = catalogue::SCHEMES.iter().map(|listed| catalogue::open(listed.id).unwrap().unwrap());
-    // sqrt3 cuts its boundary into thirds, and there is no analysis there
-    let schemes = schemes.filter(|scheme| cycle_of(scheme).unwrap().dilation == 2);
     let of = |scheme: Scheme| {
         let named = |rules: &String| {
             let book = catalogue::boundary(rules, &scheme.mesh).unwrap().unwrap();
@@ -94,6 +92,15 @@ fn meshes(triangles: bool) -> Vec<PolygonSoup> {
     ]
     .map(|creases| PolygonSoup { creases, corners: vec![a[1]], ..closed.clone() });
     open.into_iter().chain(fans).chain(tagged).map(shaken).collect()
+}
+
+/// The same, without creases for a scheme that turns edges.
+fn meshes_for(scheme: &Scheme) -> Vec<PolygonSoup> {
+    let mut meshes = meshes(scheme.mesh == "triangles");
+    if !cycle_of(scheme).unwrap().keeps_edges() {
+        meshes.iter_mut().for_each(|soup| soup.creases.clear());
+    }
+    meshes
 }
 
 /// The weights of a row by vertex.
@@ -351,8 +358,9 @@ fn masks_are_what_deep_refinement_leaves() {
     for (here, scheme, book) in variants() {
         let refiner = Refiner::new(&scheme, Some(&book)).unwrap();
         let verifier = Verifier::new(&refiner).unwrap();
-        let of = |faces: usize| [FanKind::Crease { faces }, FanKind::Corner { faces }, FanKind::Dart { faces }];
-        for kind in (1..=8).flat_map(of).filter(|kind| kind.faces() >= kind.least_faces()) {
+        let kinds = FanKind::each(&[1, 2, 3, 4, 5, 6, 7, 8], refiner.keeps_edges());
+        assert_eq!(kinds.len(), if refiner.keeps_edges() { 22 } else { 16 });
+        for kind in kinds {
             let masks = verifier.masks(Place::Fan(kind)).unwrap();
             let limit: f64 = masks.limit.as_ref().unwrap().iter().map(|(_, weight)| weight).sum();
             assert!((limit - 1.0).abs() < 1e-14, "{here} {kind:?}");
@@ -371,7 +379,7 @@ fn meshes_follow_every_variant() {
     for (here, scheme, book) in variants() {
         let refiner = Refiner::new(&scheme, Some(&book)).unwrap();
         let verifier = Verifier::new(&refiner).unwrap();
-        for (index, soup) in meshes(scheme.mesh == "triangles").iter().enumerate() {
+        for (index, soup) in meshes_for(&scheme).iter().enumerate() {
             let start = level(soup);
             let levels = verifier.levels(&start, 3).unwrap();
             assert!(levels.position < 1e-12 && levels.normal < 1e-9, "{here} {index}: {levels:?}");
@@ -404,7 +412,7 @@ fn meshes_follow_every_variant() {
 fn left_and_right_are_alike() {
     for (here, scheme, book) in variants() {
         let refiner = Refiner::new(&scheme, Some(&book)).unwrap();
-        for soup in meshes(scheme.mesh == "triangles") {
+        for soup in meshes_for(&scheme) {
             let turned: Vec<Vec<usize>> =
                 soup.faces.iter().map(|face| face.iter().rev().map(|v| *v as usize).collect()).collect();
             let image = PolygonSoup { faces: eigenring::mesh::Faces::from_lists(&turned), ..soup.clone() };
@@ -505,7 +513,7 @@ fn claims_of_boundary_files_are_compared() {
     for (here, scheme, book) in variants() {
         let analyzer = BoundaryAnalyzer::new(&scheme, &book).unwrap();
         let mut agreeing = 0;
-        for kind in (1..=6).map(crease).chain([3, 4, 5].map(|faces| FanKind::Dart { faces })) {
+        for kind in FanKind::each(&[1, 2, 3, 4, 5, 6], cycle_of(&scheme).unwrap().keeps_edges()) {
             let analysis = analyzer.at(kind).unwrap();
             let verdict = c1_up_to_boundary(&analysis, None);
             for check in check_boundary_claims(&book, &analysis, &verdict).unwrap() {

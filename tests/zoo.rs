@@ -343,13 +343,26 @@ fn boundaries_recede_under_dual_splits() {
 }
 
 /// Along a boundary sqrt3 leaves points alone in every other step and cuts edges into three in the next: two steps are one of the ternary cubic
-/// B-spline, whose mask is (1, 4, 10, 16, 19, 16, 10, 4, 1)/27.
+/// B-spline, whose mask is (1, 4, 10, 16, 19, 16, 10, 4, 1)/27. 4-8 halves them: the binary one, (1, 4, 6, 4, 1)/8.
 #[test]
-fn the_boundary_of_sqrt3_is_a_cubic_spline() {
-    let scheme = open("sqrt3");
-    let book = catalogue::boundary("thirds", "triangles").unwrap().unwrap();
+fn the_boundary_is_a_cubic_spline_every_second_step() {
+    for (id, rules, triangles, mask) in [
+        ("sqrt3", "thirds", true, &[1.0, 4.0, 10.0, 16.0, 19.0, 16.0, 10.0, 4.0, 1.0].map(|w| w / 27.0)[..]),
+        ("four-eight", "cubic", false, &[1.0, 4.0, 6.0, 4.0, 1.0].map(|w| w / 8.0)[..]),
+    ] {
+        for shape in [shapes::tube(4, 5, triangles), shapes::disc(5, triangles)] {
+            boundary_is_a_spline(id, rules, shape, mask);
+        }
+    }
+}
+
+/// `mask` is that of a symmetric scheme of the arity with which the boundary's edges are cut, about its middle.
+fn boundary_is_a_spline(id: &str, rules: &str, shape: PolygonSoup, mask: &[f64]) {
+    let scheme = open(id);
+    let book = catalogue::boundary(rules, &scheme.mesh).unwrap().unwrap();
     let refiner = Refiner::new(&scheme, Some(&book)).unwrap();
-    let start = level(shaken(shapes::tube(4, 5, true)));
+    let (arity, middle) = ((mask.len() - 1) / 4 + 1, (mask.len() / 2) as i64);
+    let start = level(shaken(shape));
     let rings = |at: &Level<f64>| {
         // the boundary's curves, each from its lowest vertex on
         let mesh = &at.mesh;
@@ -377,25 +390,22 @@ fn the_boundary_of_sqrt3_is_a_cubic_spline() {
     let after = rings(&two);
     assert_eq!(after.len(), before.len());
     for (old, new) in before.iter().zip(&after) {
-        assert_eq!(new.len(), 3 * old.len());
-        let m = old.len();
-        for (at, vertex) in new.iter().enumerate() {
-            let stencil: [(usize, f64); 3] = match at % 3 {
-                0 => [(m - 1, 4.0), (0, 19.0), (1, 4.0)],
-                1 => [(m - 1, 1.0), (0, 16.0), (1, 10.0)],
-                _ => [(0, 10.0), (1, 16.0), (2, 1.0)],
-            };
+        assert_eq!(new.len(), arity * old.len());
+        let m = old.len() as i64;
+        for (at, vertex) in (0..).zip(new) {
             for axis in 0..3 {
-                let point = |(offset, weight): &(usize, f64)| {
-                    weight / 27.0 * start.positions[old[(at / 3 + offset) % m] as usize][axis]
-                };
-                let expected: f64 = stencil.iter().map(point).sum();
-                assert!((two.positions[*vertex as usize][axis] - expected).abs() < 1e-14);
+                // p'_i is the sum of mask[i - arity j] p_j
+                let own = (-m..2 * m).filter_map(|j| {
+                    let weight = mask.get(usize::try_from(at - arity as i64 * j + middle).ok()?)?;
+                    Some(weight * start.positions[old[j.rem_euclid(m) as usize] as usize][axis])
+                });
+                let expected: f64 = own.sum();
+                assert!((two.positions[*vertex as usize][axis] - expected).abs() < 1e-14, "{id}");
             }
         }
     }
-    // new vertices on the boundary have three triangles
+    // new vertices on the boundary are regular
     let faces = |v: &u32| two.mesh.valence(two.mesh.vertex_edges()[*v as usize]) - 1;
-    let new = after.iter().flat_map(|ring| ring.iter().enumerate().filter(|(at, _)| at % 3 != 0));
-    assert!(new.map(|(_, vertex)| faces(vertex)).all(|count| count == 3));
+    let new = after.iter().flat_map(|ring| ring.iter().enumerate().filter(|(at, _)| at % arity != 0));
+    assert!(new.map(|(_, vertex)| faces(vertex)).all(|count| count == scheme.regular_valence() / 2));
 }

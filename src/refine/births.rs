@@ -24,7 +24,7 @@ impl Pass<'_, f64> {
             Birth::Face(edge) => return self.face_row(mesh, edge),
             Birth::Corner(edge) => return self.corner_row(mesh, edge),
             Birth::Kept(edge) => return Ok(vec![(mesh.origin(edge), 1.0)]),
-            Birth::Third(edge) => return self.third_row(mesh, edge),
+            Birth::Third(edge) => return self.third_row(&seen(0.0), edge),
             Birth::Edge(edge) => lasting(std::iter::once(tags.sharpness(edge))).or_else(|| {
                 let smooth = tags.sharpness(edge) == 0.0 && !mesh.is_sharp(edge);
                 let told_from_ends = smooth && self.has_rules_from_sharp_ends() && !tags.creases().is_empty();

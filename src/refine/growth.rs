@@ -61,12 +61,9 @@ impl Counts {
                 faces: corners,
                 corners: 3 * corners,
             },
-            Split::Sqrt2 => Counts {
-                vertices: vertices + faces,
-                edges: 2 * edges,
-                faces: edges,
-                corners: 4 * edges - boundary,
-            },
+            Split::Sqrt2 => {
+                Counts { vertices: vertices + faces, edges: 2 * edges, faces: edges, corners: 4 * edges - boundary }
+            }
             Split::Sqrt2Halves => {
                 let inside = edges.saturating_sub(boundary);
                 Counts { vertices: vertices + faces, edges: corners, faces: inside, corners: 4 * inside }

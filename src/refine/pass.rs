@@ -185,11 +185,14 @@ impl<'a, W: Field> Pass<'a, W> {
     }
 
     /// The row of the new point on an edge of the boundary, at the third that is nearer to the origin of `edge`: told around the boundary's two
-    /// half-edges there, the one to the far end first.
+    /// half-edges there, the one to the far end first; from a corner by a rule of its own, where there is one.
     ///
     /// # Errors
     /// As [`Pass::row_at`].
     pub fn third_row<M: Connectivity>(&self, mesh: &M, edge: M::Edge) -> Result<Row<M::Point, W>, Obstacle> {
+        if mesh.is_corner(edge) && self.rule(RuleKind::ThirdFromCorner).is_ok() {
+            return self.apply(mesh, RuleKind::ThirdFromCorner, 0, &[edge]);
+        }
         let beyond = if mesh.has_face(edge) { mesh.turn_back(edge) } else { mesh.turn(edge) };
         self.apply(mesh, RuleKind::CreaseThird, 0, &[edge, beyond])
     }

@@ -41,7 +41,10 @@ pub enum RuleKind {
     /// A third of an edge of the boundary, told from the end that is nearer.
     #[serde(rename = "edge.crease.third")]
     CreaseThird,
-    /// Such an edge, told from an end that is a corner, or has a side whose number of faces is not the regular one.
+    /// The same where that end is a corner.
+    #[serde(rename = "edge.crease.third.from-corner-end")]
+    ThirdFromCorner,
+    /// An edge of the boundary or of a crease, told from an end that is a corner, or has a side whose number of faces is not the regular one.
     #[serde(rename = "edge.crease.from-irregular-end")]
     CreaseFromIrregularEnd,
     /// Such an edge, told from an end at which the crease ends.
@@ -60,7 +63,7 @@ pub enum RuleKind {
 
 impl RuleKind {
     /// Every kind of rule with its table in a scheme file.
-    pub const ALL: [(&'static str, RuleKind); 14] = [
+    pub const ALL: [(&'static str, RuleKind); 15] = [
         ("vertex", RuleKind::Vertex),
         ("edge", RuleKind::Edge),
         ("edge.from-irregular-end", RuleKind::EdgeFromIrregularEnd),
@@ -70,6 +73,7 @@ impl RuleKind {
         ("vertex.corner", RuleKind::VertexCorner),
         ("edge.crease", RuleKind::EdgeCrease),
         ("edge.crease.third", RuleKind::CreaseThird),
+        ("edge.crease.third.from-corner-end", RuleKind::ThirdFromCorner),
         ("edge.crease.from-irregular-end", RuleKind::CreaseFromIrregularEnd),
         ("edge.crease.from-dart-end", RuleKind::CreaseFromDartEnd),
         ("edge.from-crease-end", RuleKind::EdgeFromCreaseEnd),
@@ -95,7 +99,7 @@ impl RuleKind {
     pub fn variable(self) -> Option<&'static str> {
         match self {
             RuleKind::Edge | RuleKind::EdgeCrease | RuleKind::CreaseThird => None,
-            RuleKind::VertexCorner | RuleKind::CreaseFromIrregularEnd => None,
+            RuleKind::VertexCorner | RuleKind::CreaseFromIrregularEnd | RuleKind::ThirdFromCorner => None,
             RuleKind::VertexCrease | RuleKind::EdgeFromCreaseEnd | RuleKind::EdgeFromCornerEnd => Some("k"),
             _ => Some("n"),
         }
@@ -105,7 +109,7 @@ impl RuleKind {
     pub fn starts(self, count: i64) -> i64 {
         match self {
             RuleKind::Edge | RuleKind::EdgeCrease | RuleKind::CreaseThird => 2,
-            RuleKind::VertexCorner | RuleKind::CreaseFromIrregularEnd => 1,
+            RuleKind::VertexCorner | RuleKind::CreaseFromIrregularEnd | RuleKind::ThirdFromCorner => 1,
             RuleKind::VertexCrease => count + 1,
             // the edge itself and those beside it
             kind if RuleKind::FROM_ENDS.contains(&kind) => 3,
@@ -120,8 +124,9 @@ impl RuleKind {
 
     /// Whether this rule belongs in a boundary file.
     pub fn is_boundary(self) -> bool {
-        matches!(self, RuleKind::VertexCrease | RuleKind::VertexCorner | RuleKind::EdgeCrease | RuleKind::CreaseThird)
-            || RuleKind::FROM_ENDS.contains(&self)
+        let plain = [RuleKind::VertexCrease, RuleKind::VertexCorner, RuleKind::EdgeCrease];
+        let thirds = [RuleKind::CreaseThird, RuleKind::ThirdFromCorner];
+        plain.contains(&self) || thirds.contains(&self) || RuleKind::FROM_ENDS.contains(&self)
     }
 }
 

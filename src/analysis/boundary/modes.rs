@@ -158,8 +158,12 @@ impl SineRows<Cosine> {
         Some(values)
     }
 
-    /// The eigenvalue of a mode for all k, in the scheme language, where the rows' weights are rational: on quads the equation that it solves.
+    /// The eigenvalue of a mode for all k, in the scheme language, where the rows' weights are rational: on quads the equation that it solves. None where
+    /// there are fewer than two spokes inside: what these have of each other isn't seen.
     pub fn formula(&self, mode: usize) -> Option<String> {
+        if self.faces < 3 && mode < self.faces {
+            return None;
+        }
         let [a, b] = [self.spoke[0].as_rational()?, self.spoke[1].as_rational()?];
         let two = RBig::from(2);
         let wave = if mode == 1 { "cos(pi/k)".to_string() } else { format!("cos({mode}*pi/k)") };

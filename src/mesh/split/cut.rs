@@ -27,7 +27,12 @@ pub(super) fn kept_faces(mesh: &HalfEdgeMesh) -> Vec<u32> {
 
 /// Where a point after those of the old vertices is born: in a face that is kept, or as one of some points on an edge that is cut, which tells the first
 /// corner of the edge and which of the points it is.
-pub(super) fn place(mesh: &HalfEdgeMesh, numbering: &Numbering, point: usize, points: usize) -> Result<Birth, (u32, usize)> {
+pub(super) fn place(
+    mesh: &HalfEdgeMesh,
+    numbering: &Numbering,
+    point: usize,
+    points: usize,
+) -> Result<Birth, (u32, usize)> {
     let kept = numbering.kept().unwrap_or_default();
     match point.checked_sub(kept.len()) {
         None => Ok(Birth::Face(mesh.faces().range(kept[point] as usize).start as u32)),

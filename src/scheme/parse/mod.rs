@@ -26,7 +26,7 @@ use toml::de::{DeTable, DeValue};
 pub const MAX_FILE_BYTES: usize = 1 << 16;
 
 /// Every key of a scheme file and of a boundary file, as the README's table lists them.
-pub const KEYS: [&str; 43] = [
+pub const KEYS: [&str; 44] = [
     "name",
     "mesh",
     "split",
@@ -51,7 +51,8 @@ pub const KEYS: [&str; 43] = [
     "claims.equals",
     "claims.source",
     "vertex.crease, vertex.corner, edge.crease",
-    "edge.crease.from-irregular-end, edge.crease.from-dart-end, edge.crease.third",
+    "edge.crease.from-irregular-end, edge.crease.from-dart-end",
+    "edge.crease.third, edge.crease.third.from-corner-end",
     "edge.from-crease-end, edge.from-corner-end, edge.from-dart-end",
     "like",
     "triangles, quads",

@@ -129,9 +129,10 @@ impl Reader<'_> {
 
     /// A rule told from an end has the edge itself (0) and those beside it (-1 and 1).
     fn check_picks_from_end(&mut self, kind: RuleKind, picks: Option<&[Pick]>, span: &Range<usize>) {
-        let most = if kind == RuleKind::CreaseFromIrregularEnd { 0 } else { 1 };
+        let from_end = RuleKind::FROM_ENDS.contains(&kind) || kind == RuleKind::ThirdFromCorner;
+        let most = if kind.starts(0) == 1 { 0 } else { 1 };
         let far = |pick: &Pick| !matches!(pick, Pick::Index(index) if index.abs() <= most);
-        if RuleKind::FROM_ENDS.contains(&kind) && picks.is_some_and(|picks| picks.iter().any(far)) {
+        if from_end && picks.is_some_and(|picks| picks.iter().any(far)) {
             let known =
                 if most == 0 { "only 0, the edge itself" } else { "0, the edge itself, and -1 and 1 beside it" };
             let message = format!("[{}] knows few points of a class", kind.name());
