@@ -215,8 +215,8 @@ impl<'t> Reader<'t> {
         if let Some((list, span)) = several {
             self.nothing_beside_passes(&items);
             book.passes = self.passes(&book, list, &span, mesh.as_deref());
-            // later passes meet whatever faces the first ones make
-            book.face_corners = None;
+            // on quads and polygons later passes meet whatever faces the first ones make; triangles become triangles
+            book.face_corners = book.face_corners.filter(|corners| *corners == 3);
         } else if let (Some(split), Some((_, span))) = (&split, self.find(&items, "split")) {
             self.check_births(&book.rules, split, span);
         }
