@@ -4,13 +4,16 @@
 use dashu_ratio::RBig;
 use eigenring::analysis::Analyzer;
 use eigenring::analysis::exact::Value;
+use eigenring::mesh::Lattice;
 use eigenring::numbers::Field;
 use eigenring::proof::course::range;
-use eigenring::proof::derivative::cells::{Cell, Local};
+use eigenring::proof::derivative::cells::{Cell, Local, Tiling};
 use eigenring::proof::derivative::{DerivativeProof, Engine, prove, prove_at};
+use eigenring::proof::family::CosineBox;
 use eigenring::proof::net::{Function, Net as NetOfAll};
 use eigenring::proof::outcome::{Outcome, Valences};
 use eigenring::scheme::{Scheme, catalogue};
+use std::collections::BTreeSet;
 
 fn open(id: &str) -> Scheme {
     catalogue::open(id).unwrap().unwrap()
@@ -55,23 +58,48 @@ fn modified_butterfly_valence_by_valence() {
 fn modified_butterfly_at_every_valence() {
     let proofs = proved(&open("modified-butterfly"), &[Valences::From(3)]);
     // lists of weights, and the regular valence
-    assert_eq!(proofs[0].singles, [3, 4, 6]);
+    let singles: Vec<usize> = proofs[0].boxes.iter().filter_map(|own| own.only).collect();
+    assert_eq!(singles, [3, 4, 6]);
+    covers(&proofs[0], 5);
+}
+
+/// The boxes of c hold that of every n from one on that has none of its own.
+fn covers(proof: &DerivativeProof, from: usize) {
+    let cosines = (from..200).map(|n| (std::f64::consts::TAU / n as f64).cos()).chain([1.0]);
+    for c in cosines {
+        let holds = |own: &CosineBox| own.only.is_none() && own.c.lo() <= c && c <= own.c.hi();
+        assert!(proof.boxes.iter().any(holds), "{c}");
+    }
 }
 
 /// What Bezier points prove as well.
 #[test]
-fn loop_by_enclosed_derivatives() {
-    let scheme = open("loop");
-    proved(&scheme, &[3, 6, 30].map(Valences::At));
-    proved(&scheme, &[Valences::From(3)]);
+fn polynomial_schemes_by_enclosed_derivatives() {
+    for id in ["loop", "loop-warren", "catmull-clark", "doo-sabin", "catmull-clark-biquadratic", "midpoint"] {
+        let scheme = open(id);
+        proved(&scheme, &[3, 5, 6, 30].map(Valences::At));
+        covers(&proved(&scheme, &[Valences::From(3)])[0], 4);
+    }
 }
 
+/// Kobbelt's schemes, on triangles in two steps with dilation 3 and on quads, and 4-8 subdivision, in two steps with dilation 2.
 #[test]
-fn other_schemes_are_undecided() {
-    for id in ["catmull-clark", "sqrt3", "kobbelt"] {
+fn schemes_of_other_lattices_and_limits() {
+    for id in ["sqrt3", "kobbelt", "four-eight"] {
         let scheme = open(id);
-        let analyzer = Analyzer::new(&scheme).unwrap();
-        assert!(matches!(prove(&analyzer, Valences::At(5)), Outcome::Undecided { .. }), "{id}");
+        proved(&scheme, &[3, 4, 5, 6, 7, 12].map(Valences::At));
+        covers(&proved(&scheme, &[Valences::From(3)])[0], 5);
+    }
+}
+
+/// The eigenvalue of the simplest scheme tends to 1: there is no map at the end of the range of c. At n = 3 it is not simple.
+#[test]
+fn mid_edge_valence_by_valence() {
+    let scheme = open("mid-edge");
+    proved(&scheme, &[4, 5, 6, 12].map(Valences::At));
+    let analyzer = Analyzer::new(&scheme).unwrap();
+    for valences in [Valences::At(3), Valences::From(4)] {
+        assert!(matches!(prove(&analyzer, valences), Outcome::Undecided { .. }), "{valences}");
     }
 }
 
@@ -160,27 +188,52 @@ fn two_ways_to_the_net_agree() {
     }
 }
 
-/// The butterfly's weights reproduce cubic polynomials: data of one on a cell's points are refined to its values on
+/// The butterfly's weights reproduce cubic polynomials, on quads so do Kobbelt's: data of one on a cell's points are refined to its values on
 /// the parts' points.
 #[test]
 fn rows_of_cells_reproduce_cubics() {
-    let scheme = open("butterfly");
-    let analyzer = Analyzer::new(&scheme).unwrap();
-    let engine = Engine::of(&analyzer).unwrap().unwrap();
-    let local: &Local = engine.local();
-    let cubic =
-        |x: f64, y: f64| 1.0 + 2.0 * x - y + x * x - 3.0 * x * y + x * x * x - 2.0 * x * y * y + 0.5 * y * y * y;
-    for (part, rows) in Cell::PARTS.iter().zip(&local.parts) {
-        for (q, row) in local.points.iter().zip(rows) {
-            let [x, y] = part.point(*q);
-            let sum: f64 = row
-                .iter()
-                .map(|(old, weight)| {
-                    let [x, y] = local.points[*old];
-                    weight.middle() * cubic(f64::from(x), f64::from(y))
-                })
-                .sum();
-            assert!((sum - cubic(0.5 * f64::from(x), 0.5 * f64::from(y))).abs() < 1e-10, "{part:?} {q:?}");
+    for id in ["butterfly", "kobbelt"] {
+        let scheme = open(id);
+        let analyzer = Analyzer::new(&scheme).unwrap();
+        let engine = Engine::of(&analyzer).unwrap().unwrap();
+        let local: &Local = engine.local();
+        let cubic = |[x, y]: [RBig; 2]| {
+            let whole = |value: i32| RBig::from(value);
+            whole(1) + &x * whole(2) - &y + &x * &x - &x * &y * whole(3) + &x * &x * &x - &x * &y * &y * whole(2)
+        };
+        assert_eq!(local.parts.len(), 4);
+        for part in &local.parts {
+            for (q, row) in local.points.iter().zip(&part.rows) {
+                let value = |old: usize| cubic(local.points[old].map(RBig::from));
+                let sum = row.iter().fold(RBig::ZERO, |sum, (old, weight)| sum + weight * value(*old));
+                assert_eq!(sum, cubic(local.tiling.position(part.cell.point(*q))), "{id} {q:?}");
+            }
         }
+    }
+}
+
+/// The parts of cells fill them, and those of a ring the next one.
+#[test]
+fn parts_of_a_ring_are_the_next_one() {
+    for (lattice, dilation) in
+        [(Lattice::Triangles, 2), (Lattice::Triangles, 3), (Lattice::Quads, 2), (Lattice::Dual, 2), (Lattice::Quads, 3)]
+    {
+        let tiling = Tiling { lattice, dilation };
+        assert_eq!(tiling.parts().len() as i32, dilation * dilation);
+        let half = |cell: &Cell| {
+            // told by the corner sum, both halves of the sector are mirror images
+            let [x, y] = cell.origin;
+            Cell { origin: [x.max(y), x.min(y)], ..*cell }
+        };
+        let parts = tiling.ring(4).into_iter().flat_map(|cell| {
+            let part = move |part: Cell| Cell {
+                origin: [0, 1].map(|axis| dilation * cell.origin[axis] + cell.sign * part.origin[axis]),
+                sign: cell.sign * part.sign,
+            };
+            tiling.parts().into_iter().map(part).collect::<Vec<_>>()
+        });
+        let finer: BTreeSet<Cell> = parts.map(|cell| half(&cell)).collect();
+        let next: BTreeSet<Cell> = tiling.ring(4 * dilation).into_iter().collect();
+        assert_eq!(finer, next, "{tiling:?}");
     }
 }

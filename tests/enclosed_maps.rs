@@ -5,12 +5,11 @@ use dashu_ratio::RBig;
 use eigenring::analysis::Analyzer;
 use eigenring::analysis::exact::Value;
 use eigenring::numbers::{Enclosure, Field, Interval};
-use eigenring::proof::boxes::cover::Family;
 use eigenring::proof::boxes::enclosed_map::EnclosedMap;
 use eigenring::proof::boxes::prove;
 use eigenring::proof::course::range;
 use eigenring::proof::enclosed_net::EnclosedNet;
-use eigenring::proof::jacobian::Pieces;
+use eigenring::proof::family::Family;
 use eigenring::proof::net::Net;
 use eigenring::proof::outcome::{Outcome, Valences};
 use eigenring::proof::signed::Signed;
@@ -134,8 +133,7 @@ fn exact_values_lie_in_every_enclosure() {
         let analyzer = Analyzer::new(&scheme).unwrap();
         let (lattice, forms) = (analyzer.lattice(), analyzer.forms().unwrap());
         let mut exact = Net::of(&scheme, lattice, forms, range(forms).unwrap().unwrap().course).unwrap();
-        let pieces = if id == "loop" { Pieces::Quartic } else { Pieces::Tensor(2) };
-        let family = Family::of(&analyzer, &scheme, pieces).unwrap().unwrap();
+        let family = Family::of(&analyzer, &scheme).unwrap().unwrap();
         for (n, twice_c) in [(3, -1), (4, 0), (6, 1)] {
             let c = RBig::from(twice_c) / RBig::from(2);
             let mut value = |i, j| {
@@ -179,10 +177,10 @@ fn nets_satisfy_their_equation_and_tampered_ones_do_not() {
 
 #[test]
 fn nets_over_boxes_satisfy_their_equation_and_tampered_ones_do_not() {
-    for (scheme, degree) in [(midpoint(4), 4), (midpoint(5), 5)] {
+    for scheme in [midpoint(4), midpoint(5)] {
         let analyzer = Analyzer::new(&scheme).unwrap();
         let with_values = scheme.with_values();
-        let family = Family::of(&analyzer, &with_values, Pieces::Tensor(degree)).unwrap().unwrap();
+        let family = Family::of(&analyzer, &with_values).unwrap().unwrap();
         let mut net = family.net(0.25, 0.125).unwrap().unwrap();
         net.at(6, 5).unwrap();
         assert!(net.may_satisfy_its_equation().unwrap());

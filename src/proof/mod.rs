@@ -5,8 +5,8 @@
 //! parameter ([`course`]). The net's values are rational functions of it ([`net`]), and so are the Bernstein
 //! coefficients of the Jacobian ([`jacobian`]); each is positive on the parameter's whole range ([`positive`]).
 //!
-//! Other piecewise polynomial schemes: by enclosures, at single valences ([`valence`]), and over boxes of c that cover all
-//! of them ([`boxes`]). Schemes on triangles whose limits are no polynomials: by enclosed derivatives ([`derivative`]).
+//! Others by enclosures, at single valences ([`valence`]), and over boxes of c that cover all of them ([`family`]): by Bezier points where limits are
+//! polynomials known here ([`boxes`]), by derivatives otherwise ([`derivative`]).
 //!
 //! The order of the eigenvalues, and what excludes C1: [`spectrum`]. Together: [`c1`].
 
@@ -17,6 +17,7 @@ pub mod certificate;
 pub mod course;
 pub mod derivative;
 pub mod enclosed_net;
+pub mod family;
 pub mod jacobian;
 pub mod kernel;
 pub mod map;

@@ -174,18 +174,15 @@ impl AllValences {
             .filter(|form| form.cores.iter().any(inside) && !without.contains(&form.polynomial))
             .filter_map(|form| at(&form.polynomial, &values).ok())
             .collect();
-        let mut chosen: Option<usize> = None;
+        // at a single n another form may be as large
+        let mut largest: Vec<usize> = (0..candidates.len()).collect();
         for n in SAMPLES.into_iter().filter(|n| self.holds_at(*n) && *n > 2 * k) {
-            let moduli: Option<Vec<f64>> = candidates.iter().map(|form| self.sample(form, n)).collect();
-            let moduli = moduli?;
-            let top = (0..moduli.len()).max_by(|a, b| moduli[*a].total_cmp(&moduli[*b]))?;
-            let tie = |index: usize| index != top && moduli[top] - moduli[index] < 1e-9;
-            if (0..moduli.len()).any(tie) || chosen.is_some_and(|before| before != top) {
-                return None;
-            }
-            chosen = Some(top);
+            let moduli: Vec<f64> = candidates.iter().map(|form| self.sample(form, n)).collect::<Option<_>>()?;
+            let top = moduli.iter().copied().fold(0.0, f64::max);
+            largest.retain(|index| top - moduli[*index] < 1e-9);
         }
-        candidates.into_iter().nth(chosen?)
+        let [only] = largest.as_slice() else { return None };
+        candidates.into_iter().nth(*only)
     }
 
     /// The largest modulus of a form's roots at a valence and the parameters' values.

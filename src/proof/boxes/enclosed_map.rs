@@ -1,10 +1,9 @@
 //! How was a map proved regular and injective by enclosures, and of which eigenvalue is it?
 
-use crate::analysis::exact::{BITS, Value};
-use crate::numbers::{Angle, EnclosedWorld, Interval, World};
+use crate::analysis::exact::Value;
+use crate::proof::family::{CosineBox, may_be_lambda};
 use crate::proof::jacobian::Pieces;
 use crate::proof::outcome::Valences;
-use dashu_ratio::RBig;
 use std::fmt;
 
 /// A proof.
@@ -22,17 +21,6 @@ pub struct EnclosedMap {
     pub boxes: Vec<CosineBox>,
 }
 
-/// A box of c = cos(2 pi/n), with where lambda lies on it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CosineBox {
-    /// The one valence that it is about; `None` for all that have no box of their own.
-    pub only: Option<usize>,
-    /// c.
-    pub c: Interval,
-    /// lambda.
-    pub lambda: Interval,
-}
-
 impl fmt::Display for EnclosedMap {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let boxes = self.boxes.iter().filter(|own| own.only.is_none()).count();
@@ -44,14 +32,6 @@ impl fmt::Display for EnclosedMap {
 impl EnclosedMap {
     /// Whether a real number may be the lambda of this proof at a valence; false is certain.
     pub fn may_be_lambda(&self, n: usize, value: &Value) -> bool {
-        let cosine = EnclosedWorld::<BITS>.cos(&Angle::fixed(RBig::ONE / RBig::from(n.max(1))));
-        let c = cosine.map_or(Interval::REALS, |c| Interval::enclosing(&c));
-        let own = self.boxes.iter().any(|part| part.only == Some(n)).then_some(n);
-        let near = self.boxes.iter().filter(|part| part.only == own && meet(part.c, c));
-        near.into_iter().any(|part| meet(part.lambda, Interval::enclosing(value)))
+        may_be_lambda(&self.boxes, n, value)
     }
-}
-
-fn meet(a: Interval, b: Interval) -> bool {
-    a.lo() <= b.hi() && b.lo() <= a.hi()
 }

@@ -3,15 +3,13 @@
 //! The same two tests as in [`crate::proof::map`], for what that does not reach: single valences with rules of their
 //! own ([`super::valence`]), and B-splines of any degree, whose wider stencils ask for a ring further out ([`crate::proof::ring`]). Values
 //! are enclosed ([`super::enclosed_net`]), so that a sign is proven ([`signs`]): at one valence, or on boxes of c that cover
-//! all valences from one on ([`cover`]). Where the Jacobian is certainly negative at a point, the map is not injective
+//! all valences from one on ([`crate::proof::family`]). Where the Jacobian is certainly negative at a point, the map is not injective
 //! (docs/theory.md).
 
-pub mod cover;
 pub mod enclosed_map;
-pub mod root;
 pub mod signs;
-pub mod taylor;
 
+use super::family::{CosineBox, Family, Open};
 use super::jacobian::Pieces;
 use super::outcome::{Outcome, Valences};
 use super::ring::{half_sector, radius_at};
@@ -21,12 +19,12 @@ use crate::analysis::exact::ExactAnalysis;
 use crate::mesh::Patch;
 use crate::numbers::Interval;
 use crate::refine::Obstacle;
-use cover::Family;
-use enclosed_map::{CosineBox, EnclosedMap};
+use enclosed_map::EnclosedMap;
 use signs::Reader;
 
-/// A patch is quartered so often.
+/// A patch is quartered so often; on a box, before that is halved.
 const DEPTH: usize = 5;
+const DEPTH_ON_A_BOX: usize = 1;
 
 /// Whether the characteristic maps of these valences are regular and injective. Nothing is said of the spectrum.
 pub fn prove(analyzer: &Analyzer, valences: Valences) -> Outcome<EnclosedMap> {
@@ -49,11 +47,11 @@ fn attempt_from(analyzer: &Analyzer, first: usize) -> Result<Outcome<EnclosedMap
         Err(why) => return Ok(Outcome::stuck(why)),
     };
     let scheme = analyzer.scheme().with_values();
-    let family = match Family::of(analyzer, &scheme, pieces)? {
+    let family = match Family::of(analyzer, &scheme)? {
         Ok(family) => family,
         Err(why) => return Ok(Outcome::stuck(why)),
     };
-    let Some(radius) = family.radius() else { return Ok(Outcome::stuck(NO_RING)) };
+    let Some(radius) = family.radius(pieces) else { return Ok(Outcome::stuck(NO_RING)) };
     let first = first.max(3);
     let from = family.from().max(first);
     let mut whole = EnclosedMap { valences: Valences::From(first), pieces, radius, patches: 0, boxes: Vec::new() };
@@ -67,13 +65,24 @@ fn attempt_from(analyzer: &Analyzer, first: usize) -> Result<Outcome<EnclosedMap
             other => return Ok(other),
         }
     }
-    Ok(match family.cover(radius, from)? {
-        Ok(cover) => {
-            whole.patches += cover.patches;
-            whole.boxes.extend(cover.boxes);
+    let (patches, mut looked_at) = (half_sector(pieces, radius), 0);
+    let cover = family.cover(from, |net| {
+        let signs = Reader::read(net, pieces, &patches, DEPTH_ON_A_BOX)?;
+        match signs.missing() {
+            Some(why) => Err(Open::yet(why)),
+            None => {
+                looked_at += signs.patches;
+                Ok(())
+            }
+        }
+    });
+    Ok(match cover {
+        Ok(boxes) => {
+            whole.patches += looked_at;
+            whole.boxes.extend(boxes);
             Outcome::Proved(whole)
         }
-        Err(at) => Outcome::stuck(at),
+        Err((c, why)) => Outcome::stuck(format!("c from {} to {}: {why}", c.lo(), c.hi())),
     })
 }
 

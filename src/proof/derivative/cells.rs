@@ -1,111 +1,152 @@
-//! On which points does a limit over a triangle depend, and how are those of its four parts made?
+//! On which points does a limit over a tile of the lattice depend, and how are those of its parts made?
 //!
-//! A cell is a triangle of the lattice: its origin o, and a sign that is -1 for one turned by half a turn; its points
-//! are o + sign q for the q of a finite set, the closure of a seed under the rows of its four parts. Masks are the
-//! same after half a turn, so that all cells share these rows.
+//! A cell is a tile: a triangle, or a square, whose corners are points, or on the dual lattice a square around a point. It is told by its
+//! origin o and a sign, which is -1 for a triangle that is turned by half a turn; its points are o + sign q for the q of a finite set, the closure
+//! of a seed under the rows of its parts. Masks on triangles are the same after half a turn, so that all cells share these rows.
 
 use crate::analysis::regular::mask::{Point, Sequence};
+use crate::mesh::Lattice;
 use crate::numbers::{Interval, Trouble};
+use dashu_ratio::RBig;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A triangle of the lattice.
+/// A tile of the lattice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cell {
-    /// The corner that it is told from.
+    /// The point that it is told from.
     pub origin: Point,
-    /// 1, or -1 where the other corners are o - (1, 0) and o - (0, 1).
+    /// 1, or -1 where the other corners of a triangle are o - (1, 0) and o - (0, 1).
     pub sign: i32,
 }
 
-/// The most points that a cell may have.
-const MOST_POINTS: usize = 400;
-
 impl Cell {
-    /// The parts of the cell at 0 on the lattice that is twice as fine.
-    pub const PARTS: [Cell; 4] = [
-        Cell { origin: [0, 0], sign: 1 },
-        Cell { origin: [1, 0], sign: 1 },
-        Cell { origin: [0, 1], sign: 1 },
-        Cell { origin: [1, 1], sign: -1 },
-    ];
-
     /// The point of a cell for q.
     pub fn point(self, [x, y]: Point) -> Point {
         [self.origin[0] + self.sign * x, self.origin[1] + self.sign * y]
     }
+}
 
-    /// The cells of half a sector between the rings `scale` and 2 `scale`: the mirror gives the others.
-    pub fn ring(scale: i32) -> Vec<Cell> {
-        let mut cells = Vec::new();
-        for (a, b) in (0..2 * scale).flat_map(|a| (0..=a).map(move |b| (a, b))) {
-            if (scale..2 * scale).contains(&(a + b)) {
-                cells.push(Cell { origin: [a, b], sign: 1 });
-            }
-            if (scale..2 * scale).contains(&(a + b + 1)) {
-                cells.push(Cell { origin: [a + 1, b + 1], sign: -1 });
-            }
+/// How a lattice is cut into cells, and these into parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tiling {
+    /// The lattice.
+    pub lattice: Lattice,
+    /// How many times the lattice of the parts is as fine.
+    pub dilation: i32,
+}
+
+impl Tiling {
+    /// The parts of the cell at 0.
+    pub fn parts(self) -> Vec<Cell> {
+        let d = self.dilation;
+        let places = (0..d).flat_map(|y| (0..d).map(move |x| [x, y]));
+        match self.lattice {
+            Lattice::Triangles => triangles(places, 0, d).collect(),
+            _ => places.map(|origin| Cell { origin, sign: 1 }).collect(),
         }
-        cells
+    }
+
+    /// The cells of half a sector between the rings s and d s, where d is the dilation: the mirror gives the others.
+    pub fn ring(self, s: i32) -> Vec<Cell> {
+        let last = self.dilation * s;
+        let places = (0..last).flat_map(|x| (0..=x).map(move |y| [x, y]));
+        match self.lattice {
+            Lattice::Triangles => triangles(places, s, last).collect(),
+            _ => places.filter(|[x, _]| *x >= s).map(|origin| Cell { origin, sign: 1 }).collect(),
+        }
+    }
+
+    /// The corners of the cell at 0, in halves of an edge, from the point 0.
+    pub fn corners(self) -> &'static [Point] {
+        match self.lattice {
+            Lattice::Triangles => &[[0, 0], [2, 0], [0, 2]],
+            Lattice::Quads => &[[0, 0], [2, 0], [0, 2], [2, 2]],
+            Lattice::Dual => &[[-1, -1], [1, -1], [-1, 1], [1, 1]],
+        }
+    }
+
+    /// Where a corner of a part, told as [`Tiling::corners`], lies in the cell at 0.
+    pub fn within(self, part: Cell, corner: Point) -> [RBig; 2] {
+        let half = if self.lattice.has_centre() { RBig::ZERO } else { RBig::ONE / RBig::from(2) };
+        [0, 1].map(|axis| {
+            let place = RBig::from(part.origin[axis]) + RBig::from(part.sign * corner[axis]) / RBig::from(2);
+            (place + &half) / RBig::from(self.dilation) - &half
+        })
+    }
+
+    /// Where the fine point at `place` lies on the coarse lattice, along each axis.
+    pub fn position(self, place: Point) -> [RBig; 2] {
+        let half = if self.lattice.has_centre() { RBig::ZERO } else { RBig::ONE / RBig::from(2) };
+        place.map(|x| (RBig::from(x) + &half) / RBig::from(self.dilation) - &half)
     }
 }
 
+/// Both triangles of the squares at these places, as far as they lie between two rings.
+fn triangles(places: impl Iterator<Item = Point>, first: i32, last: i32) -> impl Iterator<Item = Cell> {
+    places.flat_map(move |[x, y]| {
+        let own = (first..last).contains(&(x + y)).then_some(Cell { origin: [x, y], sign: 1 });
+        let other = (first..last).contains(&(x + y + 1)).then_some(Cell { origin: [x + 1, y + 1], sign: -1 });
+        own.into_iter().chain(other)
+    })
+}
+
 /// An old point by its index, and its weight.
-pub type Row = Vec<(usize, Interval)>;
+pub type Row<W> = Vec<(usize, W)>;
+
+/// A part of a cell.
+pub struct Part {
+    /// Where it lies, for the cell at 0.
+    pub cell: Cell,
+    /// The rows of its points.
+    pub rows: Vec<Row<RBig>>,
+    /// The same in intervals.
+    pub enclosed: Vec<Row<Interval>>,
+}
 
 /// What all cells have in common.
 pub struct Local {
-    /// The points q.
+    /// How the lattice is cut.
+    pub tiling: Tiling,
+    /// The points q; the first are [`BASE`].
     pub points: Vec<Point>,
-    /// For each part the rows of its points.
-    pub parts: [Vec<Row>; 4],
-    /// The points that limits over the cell depend on.
-    pub values: Vec<usize>,
-    /// The differences that the derivatives along (1, 0) and (0, 1) depend on: the index of q + e and that of q.
-    pub differences: [Vec<(usize, usize)>; 2],
+    /// The parts of a cell.
+    pub parts: Vec<Part>,
 }
 
-/// The axes e that derivatives are taken along.
-pub const AXES: [Point; 2] = [[1, 0], [0, 1]];
+/// The points that quadratic functions are told by; the first three tell affine ones.
+pub const BASE: [Point; 6] = [[0, 0], [1, 0], [0, 1], [1, 1], [-1, 0], [0, -1]];
+
+/// The most points that a cell may have.
+const MOST_POINTS: usize = 200;
 
 impl Local {
-    /// The points and rows for a mask and the masks of its differences along the axes; `None` where there are too
-    /// many points.
+    /// The points and rows for a mask of rational numbers; `None` where there are too many points.
     ///
     /// # Errors
     /// When a weight is no number.
-    pub fn of(mask: &Sequence, along: &[Sequence; 2]) -> Result<Option<Local>, Trouble> {
-        let values = closure(mask, [0, 0], [[0, 0]].into());
-        let [first, second] = [0, 1].map(|axis| closure(&along[axis], AXES[axis], [[0, 0]].into()));
-        let (Some(values), Some(first), Some(second)) = (values, first, second) else { return Ok(None) };
-        let ends = |of: &BTreeSet<Point>, [x, y]: Point| -> Vec<(Point, Point)> {
-            of.iter().map(|q| ([q[0] + x, q[1] + y], *q)).collect()
-        };
-        let pairs = [ends(&first, AXES[0]), ends(&second, AXES[1])];
-        let mut seed = values.clone();
-        seed.extend(pairs.iter().flatten().flat_map(|(head, tail)| [*head, *tail]));
-        let Some(points) = closure(mask, [0, 0], seed) else { return Ok(None) };
-        let points: Vec<Point> = points.into_iter().collect();
+    pub fn of(mask: &Sequence, tiling: Tiling) -> Result<Option<Local>, Trouble> {
+        let Some(closed) = closure(mask, tiling, BASE.into()) else { return Ok(None) };
+        let points: Vec<Point> =
+            BASE.into_iter().chain(closed.into_iter().filter(|point| !BASE.contains(point))).collect();
         let index: BTreeMap<Point, usize> = points.iter().enumerate().map(|(index, q)| (*q, index)).collect();
         let mut weights = BTreeMap::new();
         for (alpha, weight) in mask {
             let value = weight.as_rational().ok_or(Trouble::BeyondThisWorld("a weight of the mask is no number"))?;
-            weights.insert(*alpha, Interval::around(&value));
+            weights.insert(*alpha, value);
         }
-        let row = |part: &Cell, q: Point| -> Row {
-            let old = |(alpha, weight): (&Point, &Interval)| {
-                halved(part.point(q), *alpha).and_then(|old| Some((*index.get(&old)?, *weight)))
+        let row = |place: Point| -> Row<RBig> {
+            let old = |(alpha, weight): (&Point, &RBig)| {
+                Some((*index.get(&source(place, *alpha, tiling.dilation)?)?, weight.clone()))
             };
             weights.iter().filter_map(old).collect()
         };
-        let parts = Cell::PARTS.map(|part| points.iter().map(|q| row(&part, *q)).collect());
-        let at = |q: &Point| index.get(q).copied();
-        Ok(Some(Local {
-            values: values.iter().filter_map(at).collect(),
-            differences: pairs
-                .map(|pairs| pairs.iter().filter_map(|(head, tail)| Some((at(head)?, at(tail)?))).collect()),
-            points,
-            parts,
-        }))
+        let enclosed = |row: &Row<RBig>| row.iter().map(|(old, weight)| (*old, Interval::around(weight))).collect();
+        let part = |cell: Cell| {
+            let rows: Vec<Row<RBig>> = points.iter().map(|q| row(cell.point(*q))).collect();
+            Part { cell, enclosed: rows.iter().map(enclosed).collect(), rows }
+        };
+        let parts = tiling.parts().into_iter().map(part).collect();
+        Ok(Some(Local { tiling, points, parts }))
     }
 
     /// The largest distance of a point from its cell's origin, in edges.
@@ -114,21 +155,20 @@ impl Local {
     }
 }
 
-/// (alpha - a)/2, where it is a point.
-fn halved([x, y]: Point, [a, b]: Point) -> Option<Point> {
+/// The old point beta with place = alpha + d beta, if there is one.
+pub fn source([x, y]: Point, [a, b]: Point, d: i32) -> Option<Point> {
     let (x, y) = (x - a, y - b);
-    (x % 2 == 0 && y % 2 == 0).then_some([x / 2, y / 2])
+    (x % d == 0 && y % d == 0).then_some([x / d, y / d])
 }
 
-/// The least set with this seed that holds whatever the points of its four parts are made of. Where the data are
-/// differences along e, half a turn sends the one at q to the one at -q - e.
-fn closure(mask: &Sequence, e: Point, seed: BTreeSet<Point>) -> Option<BTreeSet<Point>> {
+/// The least set with this seed that holds whatever the points of its parts are made of.
+fn closure(mask: &Sequence, tiling: Tiling, seed: BTreeSet<Point>) -> Option<BTreeSet<Point>> {
+    let parts = tiling.parts();
     let (mut closed, mut new) = (seed.clone(), seed);
     while !new.is_empty() {
         let mut found = BTreeSet::new();
-        for (part, q) in Cell::PARTS.iter().flat_map(|part| new.iter().map(move |q| (part, *q))) {
-            let turned = if part.sign > 0 { q } else { [q[0] + e[0], q[1] + e[1]] };
-            found.extend(mask.keys().filter_map(|alpha| halved(part.point(turned), *alpha)));
+        for place in parts.iter().flat_map(|part| new.iter().map(|q| part.point(*q))) {
+            found.extend(mask.keys().filter_map(|alpha| source(place, *alpha, tiling.dilation)));
         }
         new = found.difference(&closed).copied().collect();
         closed.extend(&new);

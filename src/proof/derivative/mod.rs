@@ -1,34 +1,30 @@
 //! Is the characteristic map regular and injective where limits are no polynomials?
 //!
-//! For schemes on triangles whose regular symbol is divisible by (1 + z_1)(1 + z_2)(1 + z_1/z_2): differences along
-//! each axis are refined by a scheme of their own, and those of differences along the other directions, too. So the
-//! derivatives on a cell are enclosed by the differences that they depend on ([`mod@lebesgue`]), and cells are refined
+//! For any scheme whose regular rules keep affine functions: a cell's data less a polynomial contract faster than cells shrink,
+//! so that derivatives of limits over a cell are enclosed by that polynomial's ([`mod@deviation`]); cells are refined
 //! until the Jacobian's sign is told ([`sweep`]). At one valence the net is enclosed ([`super::valence`]); for all valences at
-//! once it is rational in a parameter and expanded on small intervals ([`every`], [`family`]). Zorin 2000 proves the
-//! same by other estimates.
+//! once on boxes of c ([`super::family`], [`every`]). Zorin 2000 proves the same for butterfly schemes by other estimates.
 
 pub mod cells;
+pub mod deviation;
 pub mod every;
-pub mod family;
-pub mod lebesgue;
-pub mod norms;
 pub mod regularity;
 pub mod sweep;
 
-use super::course::Range;
 use super::enclosed_net::EnclosedNet;
+use super::family::CosineBox;
 use super::outcome::{Outcome, Valences};
+use super::signed::Signed;
 use super::valence::net_at;
 use crate::analysis::Analyzer;
 use crate::analysis::exact::{ExactAnalysis, Value};
-use crate::analysis::regular::factors::scaled;
 use crate::analysis::regular::mask::{Point, Sequence};
 use crate::mesh::Lattice;
-use crate::numbers::{Field, Interval, Trouble};
+use crate::numbers::{Interval, Trouble};
 use crate::refine::Obstacle;
 use crate::scheme::Scheme;
-use cells::{AXES, Cell, Local};
-use lebesgue::{Lebesgue, differences, lebesgue};
+use cells::{Cell, Local, Tiling};
+use deviation::{Deviation, What, deviation};
 use regularity::{Rows, points};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -39,30 +35,20 @@ use sweep::{Coefficients, Sweep, Swept};
 pub struct DerivativeProof {
     /// The valences that it is proved for.
     pub valences: Valences,
-    /// For all valences at once: which eigenvalue the map belongs to. At one it is that of the exact analysis.
-    pub range: Option<Range>,
-    /// The valences that were looked at one by one.
-    pub singles: Vec<usize>,
-    /// The number of intervals of the parameter, those of the others.
-    pub boxes: usize,
+    /// Valences looked at apart, and boxes of c that cover all others.
+    pub boxes: Vec<CosineBox>,
     /// How many cells were tested.
     pub cells: usize,
     /// How often cells were refined at most.
     pub depth: usize,
     /// The inner radius of the ring that was covered by cells, in edges of the net.
     pub scale: i32,
-    /// L for the derivatives along an axis.
-    pub derivatives: Lebesgue,
-    /// L_f, for the values.
-    pub values: Lebesgue,
 }
 
 impl fmt::Display for DerivativeProof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let at_once = match self.valences {
-            Valences::At(_) => String::new(),
-            Valences::From(_) => format!(" on {} intervals of a parameter", self.boxes),
-        };
+        let boxes = self.boxes.iter().filter(|own| own.only.is_none()).count();
+        let at_once = if boxes == 0 { String::new() } else { format!(" on {boxes} boxes of cos(2 pi/n)") };
         write!(f, "for {} by enclosed derivatives on {} cells{at_once}", self.valences, self.cells)
     }
 }
@@ -102,17 +88,13 @@ pub struct Engine {
     clear: i32,
     mask: Sequence,
     local: Local,
-    derivatives: Lebesgue,
-    values: Lebesgue,
+    /// For slopes and for values.
+    bounds: [Deviation; 2],
 }
-
-/// The directions of the edges, each told so that it comes after 0.
-const EDGES: [Point; 3] = [[1, 0], [0, 1], [1, -1]];
 
 /// The limits of refinement, and of the number of cells, at one valence.
 const AT_ONE: (usize, usize) = (9, 60_000);
 
-const NOT_DIVISIBLE: &str = "the regular symbol lacks a factor of one of the three directions";
 const NO_RING: &str = "rules at the extraordinary point reach into the ring";
 const NO_NET: &str = "the net doesn't satisfy S f = lambda f";
 
@@ -123,10 +105,6 @@ impl Engine {
     /// When a limit of size is passed.
     pub fn of(analyzer: &Analyzer) -> Result<Result<Self, String>, Obstacle> {
         let stuck = |why: &str| Ok(Err(why.to_string()));
-        let lattice = analyzer.lattice();
-        if lattice != Lattice::Triangles || analyzer.steps() != 1 || analyzer.dilation() != 2 {
-            return stuck("derivatives are enclosed on triangles that each step halves");
-        }
         let regular = match analyzer.regular() {
             Ok(regular) => regular,
             Err(why) => return stuck(why),
@@ -134,20 +112,19 @@ impl Engine {
         if regular.smoothness.is(1) != Some(true) {
             return stuck("limits on regular meshes are not known to be C1");
         }
-        let mask = regular.mask.coefficients.clone();
+        let (lattice, mask) = (analyzer.lattice(), regular.mask.coefficients.clone());
         let same = |image: fn(Point) -> Point| mask.iter().all(|(at, weight)| mask.get(&image(*at)) == Some(weight));
-        if !same(|[x, y]| [-x, -y]) || !same(|[x, y]| [y, x]) {
+        if !same(|[x, y]| [y, x]) || lattice == Lattice::Triangles && !same(|[x, y]| [-x, -y]) {
             return stuck("the regular mask changes under half a turn or in the mirror");
         }
-        let Some(along) = along_axes(&mask)? else { return stuck(NOT_DIVISIBLE) };
-        // in the mirror, which keeps the mask, both axes are the same
-        let (derivatives, values) = (lebesgue(&along[0], &[[0, 1], [1, -1]])?, lebesgue(&mask, &EDGES)?);
-        let (Some(derivatives), Some(values)) = (derivatives, values) else {
-            return stuck("second differences are not seen to contract");
+        let tiling = Tiling { lattice, dilation: analyzer.dilation() as i32 };
+        let Some(local) = Local::of(&mask, tiling)? else { return stuck("stencils reach too far") };
+        let (slopes, values) = match (deviation(&local, What::Slopes), deviation(&local, What::Values)) {
+            (Ok(slopes), Ok(values)) => (slopes, values),
+            (Err(why), _) | (_, Err(why)) => return stuck(why),
         };
-        let Some(local) = Local::of(&mask, &along)? else { return stuck("stencils reach too far") };
         let (scheme, clear) = (analyzer.scheme().with_values(), analyzer.clear_of_centre());
-        Ok(Ok(Engine { scheme, lattice, clear, mask, local, derivatives, values }))
+        Ok(Ok(Engine { scheme, lattice, clear, mask, local, bounds: [slopes, values] }))
     }
 
     /// The points and rows of cells.
@@ -168,25 +145,27 @@ impl Engine {
         Rows::of(&self.scheme, self.lattice, n).scale(&self.local, &self.mask, self.clear)
     }
 
-    fn sweep(&self, powers: Vec<Interval>, (most_depth, most_cells): (usize, usize)) -> Sweep<'_> {
-        let upper = |own: &Lebesgue| Interval::around(&own.bound).hi();
-        let (derivatives, values) = (upper(&self.derivatives), upper(&self.values));
-        Sweep { local: &self.local, derivatives, values, powers, most_depth, most_cells }
+    /// Tests the cells of the ring with a net, whose values are `split` into coefficients.
+    fn swept<F: Signed>(
+        &self,
+        net: &mut EnclosedNet<F>,
+        scale: i32,
+        split: impl Fn(&F) -> Vec<Interval>,
+        powers: Vec<Interval>,
+        limits: (usize, usize),
+    ) -> Result<Swept, Obstacle> {
+        let cells = self.local.tiling.ring(scale);
+        let mut values: BTreeMap<Point, Coefficients> = BTreeMap::new();
+        for [i, j] in points(&cells, &self.local) {
+            let pair = net.at(i, j)?;
+            let along = net.along_axis(&pair)?;
+            values.insert([i, j], [split(&pair.0), split(&pair.1), split(&along)]);
+        }
+        Ok(Sweep::new(&self.local, self.bounds.each_ref(), powers, limits).run(&self.with_values(&cells, &values)?))
     }
 
     fn proof(&self, valences: Valences, scale: i32) -> DerivativeProof {
-        let (derivatives, values) = (self.derivatives.clone(), self.values.clone());
-        DerivativeProof {
-            valences,
-            range: None,
-            singles: vec![],
-            boxes: 1,
-            cells: 0,
-            depth: 0,
-            scale,
-            derivatives,
-            values,
-        }
+        DerivativeProof { valences, boxes: vec![], cells: 0, depth: 0, scale }
     }
 
     /// The map at one valence.
@@ -220,22 +199,19 @@ impl Engine {
     /// As [`Engine::analysed`].
     pub fn verify(&self, n: usize, net: &mut EnclosedNet<Value>) -> Result<Outcome<DerivativeProof>, Obstacle> {
         let Some(scale) = self.scale(Some(n))? else { return Ok(Outcome::stuck(NO_RING)) };
-        let cells = Cell::ring(scale);
-        let mut values: BTreeMap<Point, Coefficients> = BTreeMap::new();
-        for [i, j] in points(&cells, &self.local) {
-            let (a, b) = net.at(i, j)?;
-            values.insert([i, j], [a, b].map(|own| vec![Interval::enclosing(&own)]));
-        }
+        let powers = vec![Interval::point(1.0)];
+        let swept = self.swept(net, scale, |value| vec![Interval::enclosing(value)], powers, AT_ONE)?;
         if !net.may_satisfy_its_equation()? {
             return Ok(Outcome::stuck(NO_NET));
         }
-        let swept = self.sweep(vec![Interval::point(1.0)], AT_ONE).run(&self.with_values(&cells, &values)?);
         Ok(match swept {
             Swept::Positive { cells, depth } => {
-                Outcome::Proved(DerivativeProof { cells, depth, ..self.proof(Valences::At(n), scale) })
+                let (c, lambda) = (Interval::enclosing(&net.c), Interval::enclosing(&net.lambda));
+                let boxes = vec![CosineBox { only: Some(n), c, lambda }];
+                Outcome::Proved(DerivativeProof { cells, depth, boxes, ..self.proof(Valences::At(n), scale) })
             }
             Swept::Fold { cell, depth } => Outcome::Refuted { witness: fold(n, scale, cell, depth) },
-            Swept::Open { cell, what } => Outcome::stuck(format!("{what} near {:?} of ring {scale}", cell.origin)),
+            Swept::Open { cell, what, .. } => Outcome::stuck(format!("{what} near {:?} of ring {scale}", cell.origin)),
         })
     }
 
@@ -253,19 +229,10 @@ impl Engine {
     }
 }
 
-/// The masks of twice the differences along both axes; `None` where the mask lacks a factor.
-fn along_axes(mask: &Sequence) -> Result<Option<[Sequence; 2]>, Trouble> {
-    let twice = |own: Sequence| scaled(&own, &Field::whole(2));
-    let [Some(first), Some(second)] = [differences(mask, AXES[0])?, differences(mask, AXES[1])?] else {
-        return Ok(None);
-    };
-    Ok(Some([twice(first)?, twice(second)?]))
-}
-
 fn fold(n: usize, scale: i32, cell: Cell, depth: usize) -> String {
     let [i, j] = cell.origin;
     format!(
-        "n = {n}: the Jacobian is negative in the triangle at ({i}, {j}) of ring {scale}, seen after {depth} refinements; \
+        "n = {n}: the Jacobian is negative in the cell at ({i}, {j}) of ring {scale}, seen after {depth} refinements; \
          so the map is not injective"
     )
 }

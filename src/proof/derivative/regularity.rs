@@ -3,7 +3,7 @@
 //! Rows are looked at one by one, exactly, as far out as a rule may still see the centre: up to the distance that
 //! stencils keep clear of it from.
 
-use super::cells::{Cell, Local};
+use super::cells::{Cell, Local, source};
 use crate::analysis::exact::formulas::GENERIC;
 use crate::analysis::regular::mask::{Point, Sequence};
 use crate::mesh::{Label, Lattice, Patch};
@@ -43,16 +43,15 @@ impl<'a> Rows<'a> {
     ///
     /// # Errors
     /// When a rule has no value.
-    pub fn is_regular(&self, [i, j]: Point, mask: &Sequence) -> Result<bool, Obstacle> {
+    pub fn is_regular(&self, [i, j]: Point, mask: &Sequence, dilation: i32) -> Result<bool, Obstacle> {
         let row = match self.refinement.row(&self.patch, self.patch.point(0, i, j)) {
             Err(Obstacle::Inexact(_) | Obstacle::Trouble(_)) => return Ok(false),
             row => row?,
         };
         let mut regular: BTreeMap<Label, &Free> = BTreeMap::new();
-        for ([x, y], weight) in mask {
-            let (x, y) = (i - x, j - y);
-            if x % 2 == 0 && y % 2 == 0 {
-                regular.insert(self.patch.point(0, x / 2, y / 2), weight);
+        for (alpha, weight) in mask {
+            if let Some([x, y]) = source([i, j], *alpha, dilation) {
+                regular.insert(self.patch.point(0, x, y), weight);
             }
         }
         let same = |(label, weight): &(Label, PerFrequency<Free>)| regular.get(label) == Some(&weight.value(Some(1)));
@@ -67,21 +66,25 @@ impl<'a> Rows<'a> {
         let mut known: BTreeMap<Point, bool> = BTreeMap::new();
         // points of a cell reach into the sectors beside sector 0, and no further
         'scales: for scale in SCALES.into_iter().filter(|scale| local.extent() < *scale) {
-            let mut finer = 2 * scale;
+            let tiling = local.tiling;
+            let mut finer = tiling.dilation * scale;
             // points of cells from ring s on are on rings from s - extent on
             while finer - local.extent() < clear {
-                let near = |[x, y]: &Point| x.abs().max(y.abs()).max((x + y).abs()) < clear;
-                for point in points(&Cell::ring(finer), local).into_iter().filter(near) {
+                let near = |[i, j]: &Point| {
+                    let Label { i, j, .. } = self.patch.point(0, *i, *j);
+                    i + j < clear
+                };
+                for point in points(&tiling.ring(finer), local).into_iter().filter(near) {
                     let regular = match known.get(&point) {
                         Some(own) => *own,
-                        None => self.is_regular(point, mask)?,
+                        None => self.is_regular(point, mask, tiling.dilation)?,
                     };
                     known.insert(point, regular);
                     if !regular {
                         continue 'scales;
                     }
                 }
-                finer *= 2;
+                finer *= tiling.dilation;
             }
             return Ok(Some(scale));
         }

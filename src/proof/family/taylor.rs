@@ -57,6 +57,16 @@ impl Taylor {
         self
     }
 
+    /// The coefficients a_0, ..., a_D.
+    pub fn terms(&self) -> &[Interval] {
+        &self.terms
+    }
+
+    /// The ranges of the powers of t that they are multiplied with.
+    pub fn powers() -> Vec<Interval> {
+        (0..=DEGREE).map(power_of_t).collect()
+    }
+
     /// All of its values.
     pub fn range(&self) -> Interval {
         let parts = (1..=DEGREE).filter(|k| !is_zero(self.terms[*k])).map(|k| self.terms[k] * power_of_t(k));

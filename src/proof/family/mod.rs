@@ -1,13 +1,13 @@
-//! Do the tests hold for every valence from one on?
+//! What are the nets of all valences from one on, by boxes of c?
 //!
 //! n enters the net through c = cos(2 pi/n) alone, which lies in [cos(2 pi/n_0), 1]. That range is covered by boxes; on
-//! each, everything is a Taylor form in c. A box where a sign is not seen is halved.
+//! each, everything is a Taylor form in c ([`taylor`]), the subdominant eigenvalue too ([`root`]). A box where a test doesn't tell is halved.
 
-use super::enclosed_map::CosineBox;
-use super::root::largest_root;
-use super::signs::Reader;
-use super::taylor::Taylor;
+pub mod root;
+pub mod taylor;
+
 use crate::analysis::Analyzer;
+use crate::analysis::exact::BITS;
 use crate::analysis::exact::Value;
 use crate::analysis::exact::block::{Block, Wave};
 use crate::analysis::exact::formulas::{AllValences, GENERIC, at};
@@ -15,18 +15,22 @@ use crate::analysis::neighbourhood::Orbit;
 use crate::mesh::{Label, Patch};
 use crate::numbers::linear::{Matrix, part, shifted};
 use crate::numbers::roots::roots;
-use crate::numbers::{C, Field, Free, FreeWorld, Interval, N, PerFrequency, Trouble, Univariate};
+use crate::numbers::{
+    Angle, C, EnclosedWorld, Field, Free, FreeWorld, Interval, N, PerFrequency, Trouble, Univariate, World,
+};
 use crate::proof::enclosed_net::EnclosedNet;
-use crate::proof::jacobian::{PatchAt, Pieces};
+use crate::proof::jacobian::Pieces;
 use crate::proof::kernel::null_vector;
 use crate::proof::net::placed;
-use crate::proof::ring::{half_sector, least_radius};
+use crate::proof::ring::least_radius;
 use crate::refine::{Count, ExactWeights, Obstacle, Refinement};
 use crate::scheme::Scheme;
 use dashu_ratio::RBig;
+use root::largest_root;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
+use taylor::Taylor;
 
 /// What a scheme's nets of all valences have in common.
 pub struct Family<'s> {
@@ -34,7 +38,6 @@ pub struct Family<'s> {
     subdominant: &'s Univariate<Free>,
     block: Block<Free>,
     patch: Patch,
-    pieces: Pieces,
     clear: i32,
     refinement: Refinement<'s, PerFrequency<Free>>,
     rows: RefCell<BTreeMap<Orbit, Rc<Row>>>,
@@ -46,19 +49,40 @@ type Row = Vec<(Label, Free)>;
 /// The world of n and c; parameters have their values.
 static WORLD: FreeWorld = FreeWorld { parameters: Vec::new() };
 
-/// A patch is quartered so often, at most, before its box is halved.
-const DEPTH: usize = 1;
-
 /// Boxes are halved so often.
 const MOST_HALVINGS: u32 = 14;
 
-/// What covers the range.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Cover {
-    /// The boxes.
-    pub boxes: Vec<CosineBox>,
-    /// The number of patches that were looked at on them.
-    pub patches: usize,
+/// A box of c = cos(2 pi/n), with where lambda lies on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CosineBox {
+    /// The one valence that it is about; `None` for all that have no box of their own.
+    pub only: Option<usize>,
+    /// c.
+    pub c: Interval,
+    /// lambda.
+    pub lambda: Interval,
+}
+
+/// Why a test does not hold on a box.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Open {
+    /// What isn't seen.
+    pub why: String,
+    /// Whether smaller boxes can't help.
+    pub for_good: bool,
+}
+
+impl Open {
+    /// It may hold on smaller boxes.
+    pub fn yet(why: impl Into<String>) -> Open {
+        Open { why: why.into(), for_good: false }
+    }
+}
+
+impl From<Obstacle> for Open {
+    fn from(obstacle: Obstacle) -> Open {
+        Open::yet(obstacle.to_string())
+    }
 }
 
 impl<'s> Family<'s> {
@@ -66,11 +90,7 @@ impl<'s> Family<'s> {
     ///
     /// # Errors
     /// When a limit of size is passed.
-    pub fn of(
-        analyzer: &'s Analyzer,
-        scheme: &'s Scheme,
-        pieces: Pieces,
-    ) -> Result<Result<Family<'s>, String>, Obstacle> {
+    pub fn of(analyzer: &'s Analyzer, scheme: &'s Scheme) -> Result<Result<Family<'s>, String>, Obstacle> {
         let forms = match analyzer.forms() {
             Ok(forms) => forms,
             Err(why) => return Ok(Err(why.to_string())),
@@ -94,7 +114,6 @@ impl<'s> Family<'s> {
             subdominant,
             block,
             patch: Patch::new(analyzer.lattice(), GENERIC),
-            pieces,
             clear: analyzer.clear_of_centre(),
             refinement: Refinement::weighed(scheme, weights),
             rows: RefCell::default(),
@@ -111,10 +130,10 @@ impl<'s> Family<'s> {
         self.forms.except
     }
 
-    /// The least radius of a ring whose patches are refined by regular rules alone.
-    pub fn radius(&self) -> Option<i32> {
+    /// The least radius of a ring whose patches, of this kind, are refined by regular rules alone.
+    pub fn radius(&self, pieces: Pieces) -> Option<i32> {
         let row = |label: Label| Some((*self.row(label).ok()?).clone());
-        least_radius(self.pieces, self.patch, self.clear, &row)
+        least_radius(pieces, self.patch, self.clear, &row)
     }
 
     fn row(&self, label: Label) -> Result<Rc<Row>, Obstacle> {
@@ -175,46 +194,54 @@ impl<'s> Family<'s> {
         Ok(real.max_by(f64::total_cmp))
     }
 
-    /// Covers the c of every n from `first` on, or tells the box that is left open.
+    /// Covers the c of every n from `first` on by boxes on which a test of the net holds, or tells the one that is left open.
     ///
     /// # Errors
-    /// When a limit of size is passed.
-    pub fn cover(&self, radius: i32, first: usize) -> Result<Result<Cover, String>, Obstacle> {
-        let patches = half_sector(self.pieces, radius);
-        let mut cover = Cover::default();
+    /// The interval of c, and what isn't seen there.
+    pub fn cover(
+        &self,
+        first: usize,
+        mut test: impl FnMut(&mut EnclosedNet<Taylor>) -> Result<(), Open>,
+    ) -> Result<Vec<CosineBox>, (Interval, String)> {
+        let mut boxes = Vec::new();
         let mut open = vec![(low_end(first), 1.0, 0)];
         while let Some((low, high, halvings)) = open.pop() {
-            let m = 0.5 * (low + high);
-            match self.on_box(low, high, &patches) {
-                Ok((lambda, patches)) => {
-                    let c = Interval::point(low).hull(Interval::point(high));
-                    cover.boxes.push(CosineBox { only: None, c, lambda });
-                    cover.patches += patches;
-                }
-                Err(why) if halvings == MOST_HALVINGS => {
-                    return Ok(Err(format!("c from {low} to {high}: {why}")));
-                }
-                Err(_) => open.extend([(m, high, halvings + 1), (low, m, halvings + 1)]),
+            let (m, c) = (0.5 * (low + high), Interval::point(low).hull(Interval::point(high)));
+            match self.on_box(low, high, &mut test) {
+                Ok(lambda) => boxes.push(CosineBox { only: None, c, lambda }),
+                Err(own) if own.for_good || halvings == MOST_HALVINGS => return Err((c, own.why)),
+                // the part of large n first
+                Err(_) => open.extend([(low, m, halvings + 1), (m, high, halvings + 1)]),
             }
         }
-        Ok(Ok(cover))
+        Ok(boxes)
     }
 
-    /// Where lambda lies on a box of c, and how many patches were looked at, if all signs are as they have to be; else
-    /// where not.
-    fn on_box(&self, low: f64, high: f64, patches: &[PatchAt]) -> Result<(Interval, usize), String> {
-        let told = |obstacle: Obstacle| obstacle.to_string();
+    /// Where lambda lies on a box of c, if the test holds there.
+    fn on_box(
+        &self,
+        low: f64,
+        high: f64,
+        test: &mut impl FnMut(&mut EnclosedNet<Taylor>) -> Result<(), Open>,
+    ) -> Result<Interval, Open> {
         let (m, r) = (0.5 * (low + high), 0.5 * (high - low));
-        let mut net = self.net(m, r).map_err(told)?.ok_or("the eigenvalue isn't enclosed")?;
-        let signs = Reader::read(&mut net, self.pieces, patches, DEPTH).map_err(told)?;
-        if let Some(why) = signs.missing() {
-            return Err(why);
-        }
-        match net.may_satisfy_its_equation().map_err(told)? {
-            true => Ok((net.lambda.range(), signs.patches)),
-            false => Err("the net doesn't satisfy S f = lambda f".to_string()),
+        let mut net = self.net(m, r)?.ok_or_else(|| Open::yet("the eigenvalue isn't enclosed"))?;
+        test(&mut net)?;
+        match net.may_satisfy_its_equation()? {
+            true => Ok(net.lambda.range()),
+            false => Err(Open::yet("the net doesn't satisfy S f = lambda f")),
         }
     }
+}
+
+/// Whether a real number may be the lambda of these boxes at a valence; false is certain.
+pub fn may_be_lambda(boxes: &[CosineBox], n: usize, value: &Value) -> bool {
+    let cosine = EnclosedWorld::<BITS>.cos(&Angle::fixed(RBig::ONE / RBig::from(n.max(1))));
+    let c = cosine.map_or(Interval::REALS, |c| Interval::enclosing(&c));
+    let own = boxes.iter().any(|part| part.only == Some(n)).then_some(n);
+    let meet = |a: Interval, b: Interval| a.lo() <= b.hi() && b.lo() <= a.hi();
+    let near = boxes.iter().filter(|part| part.only == own && meet(part.c, c));
+    near.into_iter().any(|part| meet(part.lambda, Interval::enclosing(value)))
 }
 
 fn in_cosine_alone(value: &Free) -> bool {
