@@ -3,7 +3,7 @@
 //! As in [`super::net`] a value of frequency 1 is a + b w, kept as (a, b), and outside the neighbourhood f = (S
 //! f)/lambda; but c, lambda and the weights are enclosed: at one valence, or over a whole interval of c.
 
-use super::jacobian::{ControlNet, PairOf};
+use super::jacobian::PairOf;
 use super::net::turned;
 use super::signed::Signed;
 use crate::analysis::neighbourhood::Orbit;
@@ -11,6 +11,7 @@ use crate::mesh::{Label, Patch};
 use crate::refine::Obstacle;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// The row of an orbit's new point in sector 0: old points with their weights at frequency 1.
 pub type RowOf<'r, F> = dyn Fn(Orbit) -> Result<Vec<(Label, F)>, Obstacle> + 'r;
@@ -25,6 +26,8 @@ pub struct EnclosedNet<'r, F> {
     patch: Patch,
     values: BTreeMap<Orbit, PairOf<F>>,
     row: Box<RowOf<'r, F>>,
+    /// The rows that have been asked for.
+    rows: BTreeMap<Orbit, Rc<Vec<(Label, F)>>>,
 }
 
 /// A chain of old points longer than this means that a value depends on itself outside the neighbourhood.
@@ -42,7 +45,7 @@ impl<'r, F: Signed> EnclosedNet<'r, F> {
         values: BTreeMap<Orbit, PairOf<F>>,
         row: Box<RowOf<'r, F>>,
     ) -> Result<Self, Obstacle> {
-        let mut net = EnclosedNet { c, lambda, patch, values, row };
+        let mut net = EnclosedNet { c, lambda, patch, values, row, rows: BTreeMap::new() };
         let sides: Vec<F> = net.values.values().map(|pair| net.along_axis(pair)).collect::<Result<_, _>>()?;
         let first = sides.iter().filter_map(F::sign).find(|side| side.is_ne());
         if first == Some(Ordering::Less) {
@@ -93,10 +96,15 @@ impl<'r, F: Signed> EnclosedNet<'r, F> {
 
     fn image(&mut self, orbit: Orbit, depth: usize) -> Result<PairOf<F>, Obstacle> {
         let mut sum = (F::whole(0), F::whole(0));
-        for (old, weight) in (self.row)(orbit)? {
-            let (a, b) = self.value(old, depth + 1)?;
-            sum = (sum.0.plus(&a.times(&weight)?)?, sum.1.plus(&b.times(&weight)?)?);
+        let row = match self.rows.get(&orbit) {
+            Some(row) => Rc::clone(row),
+            None => Rc::new((self.row)(orbit)?),
+        };
+        for (old, weight) in row.iter() {
+            let (a, b) = self.value(*old, depth + 1)?;
+            sum = (sum.0.plus(&a.times(weight)?)?, sum.1.plus(&b.times(weight)?)?);
         }
+        self.rows.insert(orbit, row);
         Ok(sum)
     }
 
@@ -123,13 +131,5 @@ impl<'r, F: Signed> EnclosedNet<'r, F> {
     /// When a limit of size is passed.
     pub fn along_axis(&self, (a, b): &PairOf<F>) -> Result<F, Obstacle> {
         if self.patch.lattice.has_centre() { Ok(a.plus(b)?) } else { Ok(a.plus(&b.times(&self.c)?)?) }
-    }
-}
-
-impl<F: Signed> ControlNet for EnclosedNet<'_, F> {
-    type Value = F;
-
-    fn at(&mut self, i: i32, j: i32) -> Result<PairOf<F>, Obstacle> {
-        EnclosedNet::at(self, i, j)
     }
 }

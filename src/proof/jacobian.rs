@@ -127,14 +127,6 @@ impl Pieces {
         Ok(sums)
     }
 
-    /// Whether the coefficient of the Jacobian with this index is its value at a corner of the patch.
-    pub fn is_corner(self, (i, j): (usize, usize)) -> bool {
-        match self {
-            Pieces::Tensor(degree) => [i, j].iter().all(|at| [0, 2 * degree - 1].contains(at)),
-            Pieces::Quartic => [(0, 0), (6, 0), (0, 6)].contains(&(i, j)),
-        }
-    }
-
     /// The differences of the Bezier points along a direction, each times its Bernstein polynomial's factor.
     fn derivative<F: Field>(
         self,

@@ -1,12 +1,10 @@
 //! Are the characteristic maps of a valence, or of all from one on, proved to be regular and injective?
 //!
-//! By the first way that gets there: for every valence at once in exact arithmetic ([`super::map`]), by enclosed Bezier points
-//! ([`super::boxes`]), or by enclosed derivatives ([`super::derivative`]).
+//! For every valence at once in exact arithmetic ([`super::map`]), or else by enclosed derivatives ([`super::derivative`]).
 
-use super::boxes;
 use super::derivative::{DerivativeProof, Engine};
 use super::map::{self, MapProof};
-use super::outcome::{Outcome, Valences};
+use super::outcome::Outcome;
 use crate::analysis::Analyzer;
 use crate::analysis::exact::{ExactAnalysis, Value};
 use crate::refine::Obstacle;
@@ -44,7 +42,6 @@ impl<'p, 's> Maps<'p, 's> {
                 }
                 every => every.clone().map(|proof| proof.to_string()),
             },
-            &|| boxes::prove_at(self.analyzer, n, exact).map(|proof| proof.to_string()),
             &|| self.by_engine(|engine| engine.at(n, exact)).map(|proof| proof.to_string()),
         ])
     }
@@ -54,7 +51,6 @@ impl<'p, 's> Maps<'p, 's> {
     pub fn from(&self, first: usize) -> Outcome<(usize, String)> {
         first_of([
             &|| one_by_one(self.every.clone().map(|proof| (proof.valences.first().max(first), proof.to_string()))),
-            &|| one_by_one(boxes::prove(self.analyzer, Valences::From(first)).map(|proof| (first, proof.to_string()))),
             &|| {
                 one_by_one(
                     self.by_engine(|engine| engine.from(self.analyzer, first)).map(|proof| (first, proof.to_string())),
@@ -84,7 +80,7 @@ fn one_by_one<P>(outcome: Outcome<P>) -> Outcome<P> {
 }
 
 /// The first way that decides; else what each of them got stuck at.
-fn first_of<P>(ways: [&dyn Fn() -> Outcome<P>; 3]) -> Outcome<P> {
+fn first_of<P>(ways: [&dyn Fn() -> Outcome<P>; 2]) -> Outcome<P> {
     let mut stuck: Vec<String> = Vec::new();
     for way in ways {
         match way() {

@@ -5,13 +5,11 @@
 //! parameter ([`course`]). The net's values are rational functions of it ([`net`]), and so are the Bernstein
 //! coefficients of the Jacobian ([`jacobian`]); each is positive on the parameter's whole range ([`positive`]).
 //!
-//! Others by enclosures, at single valences ([`valence`]), and over boxes of c that cover all of them ([`family`]): by Bezier points where limits are
-//! polynomials known here ([`boxes`]), by derivatives otherwise ([`derivative`]).
+//! Others by enclosed derivatives ([`derivative`]), at single valences ([`valence`]), and over boxes of c that cover all of them ([`family`]).
 //!
 //! The order of the eigenvalues, and what excludes C1: [`spectrum`]. Together: [`c1`].
 
 pub mod b_spline;
-pub mod boxes;
 pub mod c1;
 pub mod certificate;
 pub mod course;

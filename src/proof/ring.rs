@@ -6,16 +6,9 @@
 //! clear of those that are not regular. A patch is four smaller ones of the next level, whose net is the same net twice
 //! as far out.
 
-use crate::analysis::Analyzer;
 use crate::mesh::{Label, Patch};
-use crate::numbers::{AtValence, Cosine, PerFrequency};
 use crate::proof::jacobian::{PatchAt, Pieces};
-use crate::proof::valence::centre;
-use crate::refine::{Count, ExactWeights, Refinement};
-use crate::scheme::Scheme;
-use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
-use std::rc::Rc;
 
 /// The row of a new point, in any form whose equality is exact; `None` where there is no such form.
 pub type ExactRow<'r, W> = dyn Fn(Label) -> Option<Vec<(Label, W)>> + 'r;
@@ -45,17 +38,6 @@ pub fn half_sector(pieces: Pieces, radius: i32) -> Vec<PatchAt> {
         }
     }
     patches
-}
-
-/// The four patches of the next level that a patch is made of.
-pub fn quarters(pieces: Pieces, ((x, y), sign): PatchAt) -> [PatchAt; 4] {
-    let (x, y) = (2 * x, 2 * y);
-    match pieces {
-        Pieces::Tensor(_) => [((x, y), 1), ((x + 1, y), 1), ((x, y + 1), 1), ((x + 1, y + 1), 1)],
-        Pieces::Quartic => {
-            [((x, y), sign), ((x + sign, y), sign), ((x, y + sign), sign), ((x + sign, y + sign), -sign)]
-        }
-    }
 }
 
 /// The least radius whose ring keeps clear of all rows that are not regular; `None` where it would be too large. Rows
@@ -96,21 +78,6 @@ fn is_regular<W: PartialEq>(pieces: Pieces, patch: Patch, clear: i32, (i, j): (i
     own == regular
 }
 
-/// The least radius of a ring at valence n whose patches are refined by regular rules alone.
-pub fn radius_at(analyzer: &Analyzer, scheme: &Scheme, pieces: Pieces, patch: Patch) -> Option<i32> {
-    let n = patch.valence as usize;
-    let world = AtValence::new(n as u64);
-    let refinement: Option<Refinement<PerFrequency<Cosine>>> = world.as_ref().map(|world| {
-        let weights = ExactWeights::new(world, Count::Number, centre(scheme, n), Rc::new(Cell::new(0)));
-        Refinement::weighed(scheme, weights)
-    });
-    let row = |label: Label| {
-        let row = refinement.as_ref()?.row(&patch, label).ok()?;
-        Some(row.into_iter().map(|(old, weight)| (old, weight.value(Some(1)).clone())).collect())
-    };
-    least_radius(pieces, patch, analyzer.clear_of_centre(), &row)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -127,16 +94,6 @@ mod tests {
                 all.extend(&half);
                 assert_eq!(all.len() as i32, 3 * radius * radius, "{pieces:?} {radius}");
             }
-        }
-    }
-
-    #[test]
-    fn quarters_of_the_ring_make_the_next_one() {
-        for pieces in [Pieces::Tensor(3), Pieces::Quartic] {
-            let mirrored = |((x, y), sign): PatchAt| ((x.max(y), x.min(y)), sign);
-            let quarters: BTreeSet<PatchAt> =
-                half_sector(pieces, 2).into_iter().flat_map(|patch| quarters(pieces, patch)).map(mirrored).collect();
-            assert_eq!(quarters, half_sector(pieces, 4).into_iter().collect());
         }
     }
 }

@@ -10,6 +10,8 @@ use super::net::placed;
 use crate::analysis::exact::block::{Block, Wave};
 use crate::analysis::exact::rows::Rows;
 use crate::analysis::exact::{BITS, ExactAnalysis, Value};
+use crate::analysis::neighbourhood::Orbit;
+use crate::analysis::regular::mask::Point;
 use crate::mesh::{Label, Lattice, Patch};
 use crate::numbers::linear::{part, shifted};
 use crate::numbers::{Angle, EnclosedWorld, Field, PerFrequency, World};
@@ -27,8 +29,35 @@ pub fn centre(scheme: &Scheme, n: usize) -> usize {
     if n == scheme.regular_valence() { usize::MAX } else { n }
 }
 
+/// The rows of points far from the centre: those of the regular mask.
+pub struct Far {
+    /// The mask, enclosed.
+    pub mask: Vec<(Point, Value)>,
+    /// The sum of a label's coordinates from which on.
+    pub clear: i32,
+    /// How many times the new lattice is as fine as the old one.
+    pub dilation: i32,
+}
+
+impl Far {
+    /// The row of a point in sector 0, where it is far.
+    fn row(&self, patch: Patch, (i, j): Orbit) -> Option<Vec<(Label, Value)>> {
+        let old = |(alpha, weight): &(Point, Value)| {
+            let [x, y] = source([i, j], *alpha, self.dilation)?;
+            Some((patch.point(0, x, y), weight.clone()))
+        };
+        (i + j >= self.clear).then(|| self.mask.iter().filter_map(old).collect())
+    }
+}
+
+/// The old point beta with place = alpha + d beta, if there is one.
+pub fn source([x, y]: Point, [a, b]: Point, d: i32) -> Option<Point> {
+    let (x, y) = (x - a, y - b);
+    (x % d == 0 && y % d == 0).then_some([x / d, y / d])
+}
+
 /// The net at valence n of a scheme whose parameters have values, for the subdominant eigenvalue of its exact analysis
-/// there; else why there is none.
+/// there; else why there is none. Rows of far points are taken from `far`, if that is given.
 ///
 /// # Errors
 /// When weights can't be enclosed, or enclosures are too wide.
@@ -37,6 +66,7 @@ pub fn net_at<'s>(
     lattice: Lattice,
     n: usize,
     analysis: &ExactAnalysis,
+    far: Option<&'s Far>,
 ) -> Result<Result<EnclosedNet<'s, Value>, String>, Obstacle> {
     let Some(index) = analysis.lambda else {
         return Ok(Err(format!("n = {n}: no simple, real and positive subdominant eigenvalue of frequency 1")));
@@ -61,7 +91,10 @@ pub fn net_at<'s>(
     let all: Vec<usize> = (0..block.unknowns.len()).collect();
     let vector = null_vector(&shifted(&part(&block.matrix, &all), &lambda)?)?;
     let values = placed(&block.unknowns, &vector, &rows, &c)?;
-    let row = move |(i, j): (i32, i32)| {
+    let row = move |(i, j): Orbit| {
+        if let Some(row) = far.and_then(|far| far.row(patch, (i, j))) {
+            return Ok(row);
+        }
         let row = refinement.row(&patch, Label { sector: 0, i, j })?;
         Ok(row.into_iter().map(|(old, weight)| (old, weight.value(Some(1)).clone())).collect())
     };

@@ -7,6 +7,7 @@
 use crate::analysis::regular::mask::{Point, Sequence};
 use crate::mesh::Lattice;
 use crate::numbers::{Interval, Trouble};
+use crate::proof::valence::source;
 use dashu_ratio::RBig;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -153,12 +154,6 @@ impl Local {
     pub fn extent(&self) -> i32 {
         self.points.iter().map(|[x, y]| x.abs().max(y.abs()).max((x + y).abs())).max().unwrap_or(0)
     }
-}
-
-/// The old point beta with place = alpha + d beta, if there is one.
-pub fn source([x, y]: Point, [a, b]: Point, d: i32) -> Option<Point> {
-    let (x, y) = (x - a, y - b);
-    (x % d == 0 && y % d == 0).then_some([x / d, y / d])
 }
 
 /// The least set with this seed that holds whatever the points of its parts are made of.

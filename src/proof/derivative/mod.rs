@@ -15,12 +15,12 @@ use super::enclosed_net::EnclosedNet;
 use super::family::CosineBox;
 use super::outcome::{Outcome, Valences};
 use super::signed::Signed;
-use super::valence::net_at;
+use super::valence::{Far, net_at};
 use crate::analysis::Analyzer;
 use crate::analysis::exact::{ExactAnalysis, Value};
 use crate::analysis::regular::mask::{Point, Sequence};
 use crate::mesh::Lattice;
-use crate::numbers::{Interval, Trouble};
+use crate::numbers::{Field, Free, Interval, Trouble};
 use crate::refine::Obstacle;
 use crate::scheme::Scheme;
 use cells::{Cell, Local, Tiling};
@@ -85,8 +85,8 @@ fn with_engine(
 pub struct Engine {
     scheme: Scheme,
     lattice: Lattice,
-    clear: i32,
     mask: Sequence,
+    far: Far,
     local: Local,
     /// For slopes and for values.
     bounds: [Deviation; 2],
@@ -117,14 +117,17 @@ impl Engine {
         if !same(|[x, y]| [y, x]) || lattice == Lattice::Triangles && !same(|[x, y]| [-x, -y]) {
             return stuck("the regular mask changes under half a turn or in the mirror");
         }
-        let tiling = Tiling { lattice, dilation: analyzer.dilation() as i32 };
+        let tiling = Tiling { lattice, dilation: analyzer.dilation() };
         let Some(local) = Local::of(&mask, tiling)? else { return stuck("stencils reach too far") };
         let (slopes, values) = match (deviation(&local, What::Slopes), deviation(&local, What::Values)) {
             (Ok(slopes), Ok(values)) => (slopes, values),
             (Err(why), _) | (_, Err(why)) => return stuck(why),
         };
-        let (scheme, clear) = (analyzer.scheme().with_values(), analyzer.clear_of_centre());
-        Ok(Ok(Engine { scheme, lattice, clear, mask, local, bounds: [slopes, values] }))
+        let value = |(at, weight): (&Point, &Free)| Some((*at, Value::rational(&weight.as_rational()?)));
+        let Some(rows) = mask.iter().map(value).collect() else { return stuck("a weight of the mask is no number") };
+        let far = Far { mask: rows, clear: analyzer.clear_of_centre(), dilation: tiling.dilation };
+        let scheme = analyzer.scheme().with_values();
+        Ok(Ok(Engine { scheme, lattice, mask, far, local, bounds: [slopes, values] }))
     }
 
     /// The points and rows of cells.
@@ -137,12 +140,12 @@ impl Engine {
     /// # Errors
     /// As [`net_at`].
     pub fn net(&self, n: usize, analysis: &ExactAnalysis) -> Result<Result<EnclosedNet<'_, Value>, String>, Obstacle> {
-        net_at(&self.scheme, self.lattice, n, analysis)
+        net_at(&self.scheme, self.lattice, n, analysis, Some(&self.far))
     }
 
     /// The inner radius of the ring at one valence, or of the one that all valences have.
     fn scale(&self, n: Option<usize>) -> Result<Option<i32>, Obstacle> {
-        Rows::of(&self.scheme, self.lattice, n).scale(&self.local, &self.mask, self.clear)
+        Rows::of(&self.scheme, self.lattice, n).scale(&self.local, &self.mask, self.far.clear)
     }
 
     /// Tests the cells of the ring with a net, whose values are `split` into coefficients.

@@ -3,11 +3,12 @@
 //! Rows are looked at one by one, exactly, as far out as a rule may still see the centre: up to the distance that
 //! stencils keep clear of it from.
 
-use super::cells::{Cell, Local, source};
+use super::cells::{Cell, Local};
 use crate::analysis::exact::formulas::GENERIC;
 use crate::analysis::regular::mask::{Point, Sequence};
 use crate::mesh::{Label, Lattice, Patch};
 use crate::numbers::{Free, FreeWorld, N, PerFrequency};
+use crate::proof::valence::source;
 use crate::refine::{Count, ExactWeights, Obstacle, Refinement};
 use crate::scheme::Scheme;
 use std::collections::{BTreeMap, BTreeSet};

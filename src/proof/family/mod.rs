@@ -19,10 +19,8 @@ use crate::numbers::{
     Angle, C, EnclosedWorld, Field, Free, FreeWorld, Interval, N, PerFrequency, Trouble, Univariate, World,
 };
 use crate::proof::enclosed_net::EnclosedNet;
-use crate::proof::jacobian::Pieces;
 use crate::proof::kernel::null_vector;
 use crate::proof::net::placed;
-use crate::proof::ring::least_radius;
 use crate::refine::{Count, ExactWeights, Obstacle, Refinement};
 use crate::scheme::Scheme;
 use dashu_ratio::RBig;
@@ -38,7 +36,6 @@ pub struct Family<'s> {
     subdominant: &'s Univariate<Free>,
     block: Block<Free>,
     patch: Patch,
-    clear: i32,
     refinement: Refinement<'s, PerFrequency<Free>>,
     rows: RefCell<BTreeMap<Orbit, Rc<Row>>>,
 }
@@ -114,7 +111,6 @@ impl<'s> Family<'s> {
             subdominant,
             block,
             patch: Patch::new(analyzer.lattice(), GENERIC),
-            clear: analyzer.clear_of_centre(),
             refinement: Refinement::weighed(scheme, weights),
             rows: RefCell::default(),
         }))
@@ -128,12 +124,6 @@ impl<'s> Family<'s> {
     /// A valence with rules of its own.
     pub fn except(&self) -> Option<usize> {
         self.forms.except
-    }
-
-    /// The least radius of a ring whose patches, of this kind, are refined by regular rules alone.
-    pub fn radius(&self, pieces: Pieces) -> Option<i32> {
-        let row = |label: Label| Some((*self.row(label).ok()?).clone());
-        least_radius(pieces, self.patch, self.clear, &row)
     }
 
     fn row(&self, label: Label) -> Result<Rc<Row>, Obstacle> {
