@@ -11,7 +11,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 /// The schemes, and the number of runs that the median is taken of.
-const SCHEMES: [(&str, &str, usize); 10] = [
+const SCHEMES: [(&str, &str, usize); 13] = [
     ("loop", "", 11),
     ("loop-warren", "", 11),
     ("catmull-clark", "", 11),
@@ -19,6 +19,9 @@ const SCHEMES: [(&str, &str, usize); 10] = [
     ("catmull-clark-biquadratic", "", 11),
     ("modified-butterfly", "", 5),
     ("butterfly", "", 5),
+    ("sqrt3", "", 5),
+    ("kobbelt", "", 5),
+    ("four-eight", "", 5),
     ("midpoint", "4", 3),
     ("midpoint", "6", 1),
     ("midpoint", "9", 1),

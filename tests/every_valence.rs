@@ -28,15 +28,31 @@ fn only(scheme: &Scheme, valences: &[usize]) -> EveryValence {
 }
 
 /// Peters and Reif (1998) for Catmull and Clark's scheme and Doo and Sabin's; Zorin (2000) for Loop's and both butterflies; Zorin and Schroeder
-/// (2001), Prautzsch and Chen (2011) for the midpoint schemes.
+/// (2001), Prautzsch and Chen (2011) for the midpoint schemes. Kobbelt's schemes (1996, 2000) and that of Velho and Zorin (2001) are said to be C1
+/// from numbers at some valences.
 #[test]
 fn schemes_are_c1_where_the_literature_says_so() {
-    for id in ["loop", "loop-warren", "catmull-clark", "doo-sabin", "catmull-clark-biquadratic", "modified-butterfly"] {
+    let by_exact_polynomials = ["loop", "loop-warren", "catmull-clark", "doo-sabin", "catmull-clark-biquadratic"];
+    let by_derivatives = ["modified-butterfly", "sqrt3", "kobbelt", "four-eight"];
+    for id in by_exact_polynomials.into_iter().chain(by_derivatives) {
         let found = every(&open(id));
         assert_eq!(found.statement, "proved for every n >= 3", "{id}: {found:?}");
     }
     let butterfly = every(&open("butterfly"));
     assert_eq!(butterfly.statement, "proved for n = 4..7; refuted for n = 3 and every n >= 8", "{butterfly:?}");
+    // lambda tends to 1
+    let mid_edge = every(&open("mid-edge"));
+    assert_eq!(mid_edge.statement, "proved for n = 4..12; undecided for n = 3 and every n >= 13", "{mid_edge:?}");
+}
+
+#[test]
+fn loop_by_averaging_is_c1() {
+    for passes in 1..=4 {
+        let mut scheme = open("loop-averaging");
+        scheme.book.set("m", &passes.to_string()).unwrap();
+        let found = every(&scheme);
+        assert_eq!(found.statement, "proved for every n >= 3", "{passes}: {found:?}");
+    }
 }
 
 #[test]
@@ -52,7 +68,7 @@ fn midpoint_schemes_are_c1() {
 /// The conditions of a valence by itself, looked at without what is said of all at once.
 #[test]
 fn single_valences_agree_with_what_is_said_of_all() {
-    for id in ["loop", "doo-sabin", "modified-butterfly", "butterfly"] {
+    for id in ["loop", "doo-sabin", "modified-butterfly", "butterfly", "sqrt3", "kobbelt", "four-eight"] {
         let (scheme, alone) = (open(id), [13, 20, 31]);
         let said = every(&scheme);
         for n in alone {
