@@ -116,7 +116,7 @@ fn claims_of_the_catalogue_agree() {
     let mut seen = 0;
     let mut agree = |id: &str, settings: &[(&str, &str)]| {
         let scheme = scheme(id, settings);
-        let document = eigenring::report::curve::curve(&scheme, 10, false).unwrap();
+        let document = eigenring::report::curve::curve(&scheme, None, 10, false).unwrap();
         let json: serde_json::Value = serde_json::from_str(&document.json).unwrap();
         for (claim, told) in json["claims"].as_array().unwrap().iter().zip(&scheme.claims) {
             let expected = if scheme.claim_is_made(told).unwrap() { "agrees" } else { "undecided" };
@@ -135,7 +135,8 @@ fn claims_of_the_catalogue_agree() {
 #[test]
 fn the_report_tells_smoothness() {
     let told = |id: &str, settings: &[(&str, &str)]| -> serde_json::Value {
-        serde_json::from_str(&eigenring::report::curve::curve(&scheme(id, settings), 10, false).unwrap().json).unwrap()
+        serde_json::from_str(&eigenring::report::curve::curve(&scheme(id, settings), None, 10, false).unwrap().json)
+            .unwrap()
     };
     let four = told("four-point", &[("w", "1/16")]);
     assert_eq!((&four["smoothness"]["continuity"], &four["smoothness"]["hoelder"]["exact"]), (&1.into(), &"2".into()));

@@ -81,7 +81,8 @@ fn the_json_contract_names_every_key() {
         keys_of(&serde_json::from_str(&json(&study.report).unwrap()).unwrap(), &mut keys);
     }
     for id in ["b-spline", "bezier", "ternary-four-point"] {
-        let document = eigenring::report::curve::curve(&catalogue::curve(id).unwrap().unwrap(), 10, false).unwrap();
+        let document =
+            eigenring::report::curve::curve(&catalogue::curve(id).unwrap().unwrap(), None, 10, false).unwrap();
         keys_of(&serde_json::from_str(&document.json).unwrap(), &mut keys);
     }
     for key in &keys {

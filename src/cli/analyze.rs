@@ -30,9 +30,9 @@ const EXAMPLES: &str = "Examples:
 pub(crate) struct Analyze {
     /// A scheme of the catalogue, or the path of a scheme file
     scheme: String,
-    /// Valences: 3..12 (both included), or a list such as 3,4,7..9,50
-    #[arg(long, short = 'n', default_value = "3..12", value_name = "LIST")]
-    valence: Valences,
+    /// Valences: 3..12 (both included), or a list such as 3,4,7..9,50 [default: 3..12]
+    #[arg(long, short = 'n', value_name = "LIST")]
+    valence: Option<Valences>,
     /// Set a parameter of the scheme, for example w=1/32; may be given several times
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -45,9 +45,9 @@ pub(crate) struct Analyze {
     /// Find the values of a parameter for which spectral conditions hold, exactly: w=0..1/4
     #[arg(long, value_name = "NAME=LOW..HIGH", value_parser = Interval::parse)]
     range: Option<Interval>,
-    /// For curves, the claim that --range looks at: C0, C1, C2, ...
-    #[arg(long, value_name = "CLAIM", default_value = "C1", value_parser = continuity)]
-    claim: usize,
+    /// For curves, the claim that --range looks at: C0, C1, C2, ... [default: C1]
+    #[arg(long, value_name = "CLAIM", requires = "range", value_parser = continuity)]
+    claim: Option<usize>,
     /// Add what the scheme does at boundaries, creases, corners and darts, for these numbers of faces: 1..8, or a list
     #[arg(long, value_name = "LIST")]
     boundary: Option<Faces>,
@@ -83,16 +83,13 @@ impl Analyze {
             AnyScheme::Surface(scheme) => self.surface(*scheme, variants),
             AnyScheme::Curve(scheme) => {
                 self.only_for_surfaces("curves")?;
-                if let Some(interval) = &self.range {
-                    let found = curve::range::range(&scheme, interval, self.claim);
-                    let found = found.map_err(|why| failure(format!("{}: {why}", scheme.book.title)))?;
-                    return match self.format {
-                        Some(Format::Json) => print(&(serde_json::to_string_pretty(&found).unwrap_or_default() + "\n")),
-                        _ => print(&curve::range::terminal(&scheme.book.title, &found)),
-                    };
-                }
+                let range = |interval: &Interval| {
+                    let found = curve::range::range(&scheme, interval, self.claim.unwrap_or(1));
+                    found.map_err(|why| failure(format!("{}: {why}", scheme.book.title)))
+                };
+                let range = self.range.as_ref().map(range).transpose()?;
                 let draw = !self.no_pictures && self.format.is_none();
-                self.document(&curve::curve(&scheme, self.digits.into(), draw)?)
+                self.document(&curve::curve(&scheme, range, self.digits.into(), draw)?)
             }
             AnyScheme::Grid(scheme) => {
                 self.only_for_surfaces("grids")?;
@@ -108,6 +105,7 @@ impl Analyze {
             ("--sweep", self.sweep.is_some()),
             ("--range", self.range.is_some() && kind == "grids"),
             ("--boundary", self.boundary.is_some()),
+            ("--valence", self.valence.is_some()),
         ];
         match asked.iter().find(|(_, asked)| *asked) {
             Some((option, _)) => Err(failure(format!("{option} is for surfaces; this is a scheme for {kind}"))),
@@ -132,27 +130,35 @@ impl Analyze {
     }
 
     fn surface(self, mut scheme: Scheme, variants: Vec<Variant>) -> Result<(), Failure> {
+        if self.claim.is_some() {
+            return Err(failure("--claim is for curves; this is a scheme for surfaces".to_string()));
+        }
+        let valences = self.valence.as_ref().map_or_else(|| (3..=12).collect(), |list| list.0.clone());
         self.symbolic.iter().try_for_each(|name| scheme.leave_free(name.trim())).map_err(failure)?;
         let draw = !self.no_pictures && self.format.is_none();
-        let bar = progress_bar(&self.valence.0);
+        let bar = progress_bar(&valences);
         let bar = if bar.is_hidden() { spinner("analysing, and deciding C1 for every valence") } else { bar };
-        let study = Study::with_digits(&scheme, &self.valence.0, self.digits.into(), draw, &|| bar.inc(1));
+        let study = Study::with_digits(&scheme, &valences, self.digits.into(), draw, &|| bar.inc(1));
         bar.finish_and_clear();
         let study = study.map_err(|error| explain(&scheme, error))?;
         let mut study = study;
         if let Some(request) = &self.sweep {
-            add_sweep(&mut study, &scheme, &self.valence.0, request, draw)?;
+            add_sweep(&mut study, &scheme, &valences, request, draw)?;
         }
         if let Some(interval) = &self.range {
-            let bar = progress_bar(&self.valence.0);
-            let found = ranges::ranges(&scheme, &self.valence.0, interval, &|| bar.inc(1));
+            let bar = progress_bar(&valences);
+            let found = ranges::ranges(&scheme, &valences, interval, &|| bar.inc(1));
             bar.finish_and_clear();
             study.report.ranges = found.map_err(failure)?;
         }
         if let Some(faces) = &self.boundary {
             let bar = progress_bar(&faces.0);
-            if variants.is_empty() {
-                return Err(explain(&scheme, boundary::no_boundary_file()));
+            if variants.is_empty() && self.rules.are_none() {
+                return Err(failure(
+                    "--boundary needs boundary rules, and --boundary-rules none takes none".to_string(),
+                ));
+            } else if variants.is_empty() {
+                return Err(explain(&scheme, boundary::no_boundary_file(&scheme)));
             }
             let found = boundary::boundary(&scheme, &variants, &faces.0, self.digits.into(), &|| bar.inc(1));
             bar.finish_and_clear();

@@ -85,7 +85,7 @@ fn others() -> Result<String, Failure> {
         let names: Vec<&str> = book.parameters.iter().map(|p| p.name.as_str()).collect();
         if names.is_empty() { String::new() } else { format!(", parameter {}", names.join(", ")) }
     };
-    let mut text = "On curves\n".to_string();
+    let mut text = "\nOn curves\n".to_string();
     for listed in catalogue::CURVES {
         let Some(scheme) = catalogue::curve(listed.id).transpose()? else { continue };
         let arity = match scheme.rules()? {
@@ -96,17 +96,17 @@ fn others() -> Result<String, Failure> {
         let _ =
             writeln!(text, "  {:<26} {} ({arity}, told as {told}{})", scheme.id, scheme.book.title, set(&scheme.book));
     }
-    text.push_str("On grids\n");
+    text.push_str("\nOn grids\n");
     for listed in catalogue::GRIDS {
         let Some(scheme) = catalogue::grid(listed.id).transpose()? else { continue };
         let [a, b] = &scheme.factors;
         let _ = writeln!(text, "  {:<26} {} ({} x {})", scheme.id, scheme.book.title, a.scheme, b.scheme);
     }
-    text.push_str("Boundary rules, for --boundary-rules\n");
+    text.push_str("\nBoundary rules, for --boundary-rules\n");
     for listed in catalogue::BOUNDARIES {
         let Some(book) = catalogue::boundary(listed.id, "triangles").transpose()? else { continue };
         let like = book.like.as_ref().map_or(String::new(), |like| format!("; like {}", like.title));
-        let _ = writeln!(text, "  {:<30} {}{like}{}", listed.id, book.title, set(&book));
+        let _ = writeln!(text, "  {:<30}  {}{like}{}", listed.id, book.title, set(&book));
     }
     Ok(text)
 }

@@ -33,7 +33,14 @@ impl Check {
                 print(&format!("{}\n", refusal.why))?;
                 Err(Failure::No)
             }
-            Err(refusal) => Err(failure(refusal.why)),
+            Err(_) if self.certificate.metadata().is_ok_and(|own| own.is_file() && own.len() == 0) => {
+                Err(failure(format!("`{}` is empty: no certificate", self.certificate.display())))
+            }
+            Err(refusal) => {
+                let path = self.certificate.display().to_string();
+                let told = refusal.why.contains(&path);
+                Err(failure(if told { refusal.why } else { format!("`{path}`: {}", refusal.why) }))
+            }
         }
     }
 }

@@ -47,7 +47,7 @@ impl Claims {
         }
         bar.finish_and_clear();
         let [holds, fails, undecided] = counts;
-        let _ = writeln!(text, "{holds} hold, {fails} fail, {undecided} are undecided, at n = {}.", in_words(valences));
+        let _ = writeln!(text, "{holds} hold, {fails} fail, {undecided} undecided, at n = {}.", in_words(valences));
         print(&text)?;
         if fails > 0 { Err(Failure::No) } else { Ok(()) }
     }

@@ -81,6 +81,11 @@ pub(crate) struct BoundaryRules {
 }
 
 impl BoundaryRules {
+    /// Whether none are asked for.
+    pub(crate) fn are_none(&self) -> bool {
+        self.asked == ["none"]
+    }
+
     /// Those asked for, `none` being none; the scheme's first where nothing is asked for, and none where it names none.
     fn open(&self, scheme: &Scheme) -> Result<Vec<Variant>, Failure> {
         match self.asked.iter().map(String::as_str).collect::<Vec<_>>()[..] {

@@ -286,7 +286,7 @@ fn made(faces: usize, time: Duration) -> String {
 fn say_without_normal(surface: &LimitSurface) {
     for (why, (first, count)) in &surface.without_normal {
         let others = if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };
-        say(&format!("note: no normal at vertex {first}{others}: {why}"));
+        say(&format!("note: no normal at vertex {first} (the first is 0){others}: {why}"));
     }
     if let Some((first, count)) = surface.slow_normals {
         let others = if count > 1 { format!(" and {} more", count - 1) } else { String::new() };
@@ -299,11 +299,15 @@ fn say_without_normal(surface: &LimitSurface) {
 /// Why a mesh can't be refined, in words that help.
 pub(crate) fn refused(scheme: &Scheme, wrong: NotRefinable) -> Failure {
     match wrong {
-        NotRefinable::Obstacle(Obstacle::NoRule(rule)) => failure(format!(
-            "{} has no rule [{rule}], which this mesh needs: it has a boundary or a crease\n  \
-            help: name a file of boundary rules in the scheme file, boundary = [\"cubic\"], or close the mesh",
-            scheme.book.title
-        )),
+        NotRefinable::Obstacle(Obstacle::NoRule(rule)) => {
+            let help = match scheme.boundary.first() {
+                Some(name) => format!("the scheme names the file of boundary rules `{name}`; or close the mesh"),
+                None => "name a file of boundary rules in the scheme file, boundary = [\"cubic\"], or close the mesh"
+                    .to_string(),
+            };
+            let why = "which this mesh needs: it has a boundary or a crease";
+            failure(format!("{} has no rule [{rule}], {why}\n  help: {help}", scheme.book.title))
+        }
         NotRefinable::Obstacle(obstacle) => explain(scheme, obstacle),
         NotRefinable::At(_, ref obstacle) if matches!(**obstacle, Obstacle::Boundary(_)) => failure(format!(
             "{}: {wrong}\n  help: no rule is told for such a place: a shorter rule is needed, or a mesh without boundary and creases",

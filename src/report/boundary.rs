@@ -120,20 +120,27 @@ impl Variant {
     /// When the scheme names none; faults of the files.
     pub fn all_of(scheme: &Scheme) -> Result<Vec<Variant>, NoReport> {
         let open = |name: &String| {
-            let book = catalogue::boundary(name, &scheme.mesh).ok_or_else(no_boundary_file)?;
+            let book = catalogue::boundary(name, &scheme.mesh).ok_or_else(|| no_boundary_file(scheme))?;
             Ok(Variant { name: name.clone(), book: book.map_err(NoReport::Faults)? })
         };
-        if scheme.boundary.is_empty() { Err(no_boundary_file()) } else { scheme.boundary.iter().map(open).collect() }
+        if scheme.boundary.is_empty() {
+            Err(no_boundary_file(scheme))
+        } else {
+            scheme.boundary.iter().map(open).collect()
+        }
     }
 }
 
 /// What is said where there are no rules to be taken.
-pub fn no_boundary_file() -> NoReport {
-    NoReport::Obstacle(Obstacle::Limit(
-        "the scheme names no boundary file, whose rules the analysis at a boundary takes: add for example boundary = [\"cubic\"] to \
-         the scheme file"
-            .to_string(),
-    ))
+pub fn no_boundary_file(scheme: &Scheme) -> NoReport {
+    let why = if cycle_of(scheme).is_ok_and(|cycle| cycle.keeps_boundary()) {
+        "the scheme names no boundary file, whose rules the analysis at a boundary takes: add for example boundary = [\"cubic\"] to the \
+         scheme file"
+            .to_string()
+    } else {
+        format!("under its splits the boundary recedes, and there is no analysis there: {}", scheme.split_in_words())
+    };
+    NoReport::Obstacle(Obstacle::Limit(why))
 }
 
 /// The reports at these numbers of faces: crease and corner, and from three faces on the dart, with each of the boundary files; those of one
@@ -154,14 +161,15 @@ pub fn boundary(
     let mut analyzers = Vec::new();
     for variant in variants {
         variant.book.check(&counts, scheme.regular_valence()).map_err(NoReport::Faults)?;
-        let analyzer = BoundaryAnalyzer::new(scheme, &variant.book).map_err(NoReport::of(scheme))?;
+        let analyzer = BoundaryAnalyzer::new(scheme, &variant.book);
+        let analyzer = analyzer.map_err(|obstacle| NoReport::of(scheme)(by_rules(variant, obstacle)))?;
         analyzers.push((variant, analyzer));
     }
     let mut reports = Vec::new();
     let creases_inside = cycle_of(scheme).map_err(NoReport::of(scheme))?.keeps_edges();
     for kind in FanKind::each(faces, creases_inside) {
         for (variant, analyzer) in &analyzers {
-            let analysis = analyzer.at(kind).map_err(NoReport::of(scheme))?;
+            let analysis = analyzer.at(kind).map_err(|obstacle| NoReport::of(scheme)(by_rules(variant, obstacle)))?;
             let exact = analyzer.exact(&analysis.local);
             let mut own = report(variant, &analysis, exact, &names, digits);
             let claims = check_boundary_claims(&variant.book, &analysis, &own.verdict);
@@ -173,6 +181,14 @@ pub fn boundary(
         done();
     }
     Ok(reports)
+}
+
+/// What stands in the way, with the boundary file that lacks a rule.
+fn by_rules(variant: &Variant, obstacle: Obstacle) -> Obstacle {
+    match obstacle {
+        Obstacle::NoRule(_) => Obstacle::Limit(format!("by the rules `{}`: {obstacle}", variant.name)),
+        other => other,
+    }
 }
 
 fn report(

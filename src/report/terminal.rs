@@ -66,7 +66,9 @@ fn known(report: &Report) -> String {
     let what = match (exact, enclosed, rest) {
         (_, 0, 0) => "Eigenvalues, their order and curvature are exact".to_string(),
         (0, 0, _) => "All else is approximate (f64)".to_string(),
-        _ => format!("Eigenvalues are exact at {exact} valences, enclosed at {enclosed}, approximate (f64) at {rest}"),
+        _ => format!(
+            "Eigenvalues are exact at {exact} of the valences, enclosed at {enclosed}, approximate (f64) at {rest}"
+        ),
     };
     let open = |v: &ValenceReport| v.verdicts.iter().any(|own| own.claim == "C1" && own.verdict == Decision::Undecided);
     if !report.valences.iter().any(open) {

@@ -48,7 +48,11 @@ pub struct DerivativeProof {
 impl fmt::Display for DerivativeProof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let boxes = self.boxes.iter().filter(|own| own.only.is_none()).count();
-        let at_once = if boxes == 0 { String::new() } else { format!(" on {boxes} boxes of cos(2 pi/n)") };
+        let at_once = match boxes {
+            0 => String::new(),
+            1 => " on one box of cos(2 pi/n)".to_string(),
+            _ => format!(" on {boxes} boxes of cos(2 pi/n)"),
+        };
         write!(f, "for {} by enclosed derivatives on {} cells{at_once}", self.valences, self.cells)
     }
 }

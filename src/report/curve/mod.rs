@@ -15,6 +15,8 @@ pub use grid::grid;
 pub use model::{CurvePointReport, CurveReport, WeightAt};
 pub use smoothness::SmoothnessReport;
 
+use range::RangeReport;
+
 use super::plots::curve_pictures;
 use crate::analysis::curve::point::{points_of_halves, points_of_mask};
 use crate::fault::Faults;
@@ -29,18 +31,24 @@ pub enum NoCurveReport {
     Words(String),
 }
 
-/// The report of a scheme for curves, with its pictures if they are wanted.
+/// The report of a scheme for curves, with what is known on an interval of a parameter if that was looked at, and with its pictures if they are
+/// wanted.
 ///
 /// # Errors
 /// Faults of the scheme file, or what stood in the way.
-pub fn curve(scheme: &CurveScheme, digits: usize, draw: bool) -> Result<Document, NoCurveReport> {
+pub fn curve(
+    scheme: &CurveScheme,
+    range: Option<RangeReport>,
+    digits: usize,
+    draw: bool,
+) -> Result<Document, NoCurveReport> {
     let rules = scheme.rules().map_err(NoCurveReport::Faults)?;
     let points = match &rules {
         Rules::Mask(mask, ends) => points_of_mask(mask, ends.as_ref()),
         Rules::Halves(halves) => points_of_halves(halves),
     };
     let points = points.map_err(|trouble| NoCurveReport::Words(trouble.to_string()))?;
-    let report = CurveReport::new(scheme, &rules, &points, digits)?;
+    let report = CurveReport { range, ..CurveReport::new(scheme, &rules, &points, digits)? };
     let pictures = if draw { curve_pictures(&rules, &points) } else { Ok(Vec::new()) };
     let pictures = pictures.map_err(|obstacle| NoCurveReport::Words(obstacle.to_string()))?;
     document::of_curve(&report, pictures)

@@ -1,6 +1,7 @@
 //! Which data has the report of a scheme for curves?
 
 use super::NoCurveReport;
+use super::range::RangeReport;
 use super::smoothness::{SmoothnessReport, facts, of_mask};
 use crate::analysis::curve::convergence::convergence;
 use crate::analysis::curve::difference::sum_rules;
@@ -56,6 +57,9 @@ pub struct CurveReport {
     pub generation_degree: Option<usize>,
     /// The largest degree of polynomials that come back from their samples.
     pub reproduction_degree: Option<usize>,
+    /// What is known on an interval of a parameter, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<RangeReport>,
     /// The marked points.
     pub points: Vec<CurvePointReport>,
     /// How fast polygons come near to the curve.
@@ -227,6 +231,7 @@ impl CurveReport {
             generation_degree: facts.generation,
             reproduction_degree: facts.reproduction,
             claims,
+            range: None,
             points: points.iter().map(|point| point_report(point, digits)).collect(),
             convergence: convergence(rules).map(|found| ConvergenceReport {
                 distances: found.approx_distances.iter().map(|distance| rounded(*distance)).collect(),

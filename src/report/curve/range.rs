@@ -4,6 +4,7 @@
 //! polytope that serves both ends, refuted by one product on all of it, or undecided ([`range`](crate::analysis::smoothness::range)).
 
 use crate::analysis::smoothness::range::{Finding, continuity_between};
+use crate::report::{Cell, Table};
 use crate::scheme::Interval;
 use crate::scheme::curve::CurveScheme;
 use dashu_ratio::RBig;
@@ -41,8 +42,15 @@ pub struct RangeReport {
 /// In words: when weights depend on the parameter otherwise, or masks have no limits or are too large.
 pub fn range(scheme: &CurveScheme, interval: &Interval, m: usize) -> Result<RangeReport, String> {
     let name = &interval.name;
-    if !scheme.book.parameters.iter().any(|parameter| parameter.name == *name) {
-        return Err(format!("{} has no parameter `{name}`", scheme.book.title));
+    let parameters = &scheme.book.parameters;
+    match parameters.iter().find(|parameter| parameter.name == *name) {
+        None if parameters.is_empty() => return Err("it has no parameter".to_string()),
+        None => {
+            let names: Vec<&str> = parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+            return Err(format!("there is no parameter `{name}`; it has {}", names.join(", ")));
+        }
+        Some(own) if own.integer => return Err(format!("`{name}` takes whole numbers only, and has no range")),
+        Some(_) => {}
     }
     if !scheme.is_affine_in(name).map_err(|fault| fault.message)? {
         return Err(format!("the weights do not depend on `{name}` by polynomials of degree 1, which ranges need"));
@@ -72,18 +80,35 @@ pub fn range(scheme: &CurveScheme, interval: &Interval, m: usize) -> Result<Rang
     Ok(RangeReport { parameter: name.clone(), claim: format!("C{m}"), pieces })
 }
 
-/// The pieces as lines for a terminal.
-pub fn terminal(title: &str, report: &RangeReport) -> String {
-    let mut text = format!("{title}: is the limit {}?\n", report.claim);
-    for Piece { from, to, verdict } in &report.pieces {
-        let decimal = |text: &str| text.parse::<RBig>().map_or(0.0, |value| value.to_f64().value());
-        let _ = writeln!(
-            text,
-            "  {} from {from} to {to}  ({:.6} to {:.6})  {verdict}",
-            report.parameter,
-            decimal(from),
-            decimal(to)
-        );
+impl RangeReport {
+    fn question(&self) -> String {
+        format!("Where in {} are limits {}?", self.parameter, self.claim)
     }
-    text
+
+    /// The pieces as lines for a terminal.
+    pub(super) fn terminal(&self) -> String {
+        let mut text = format!("{}\n", self.question());
+        for Piece { from, to, verdict } in &self.pieces {
+            let (low, high) = (decimal(from), decimal(to));
+            let _ = writeln!(text, "  {} from {from} to {to}  ({low:.6} to {high:.6})  {verdict}", self.parameter);
+        }
+        text
+    }
+
+    /// The pieces as a table.
+    pub(super) fn table(&self) -> Table {
+        let head = ["from", "to", "decimal", "verdict"].map(String::from).to_vec();
+        let row = |piece: &Piece| {
+            let range = format!("{:.6} to {:.6}", decimal(&piece.from), decimal(&piece.to));
+            [piece.from.clone(), piece.to.clone(), range, piece.verdict.to_string()].map(Cell::from).to_vec()
+        };
+        Table::new(&self.question(), NOTE, head, self.pieces.iter().map(row).collect())
+    }
+}
+
+const NOTE: &str = "Ends belong to their pieces. Proved: one norm in which the difference scheme contracts serves all values of the piece; refuted: one \
+                    product of its matrices grows on all of it.";
+
+fn decimal(text: &str) -> f64 {
+    text.parse::<RBig>().map_or(0.0, |value| value.to_f64().value())
 }

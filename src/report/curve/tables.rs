@@ -1,6 +1,7 @@
 //! Which tables belong to the report of a curve?
 
 use super::model::{CurveEigenvalueReport, CurvePointReport, CurveReport, LocalReport, WeightAt};
+use super::range::RangeReport;
 use crate::report::{Cell, Table};
 
 /// The table that the picture of the basic limit function follows.
@@ -47,6 +48,7 @@ fn matrix_table(title: &str, note: &str, labels: &[String], rows: &[Vec<String>]
 pub(super) fn tables(report: &CurveReport) -> Vec<Table> {
     let mut tables = vec![rules(report)];
     tables.extend(super::smoothness::table(report));
+    tables.extend(report.range.as_ref().map(RangeReport::table));
     tables.extend(report.halves.iter().flat_map(halves));
     for point in &report.points {
         let at = point.at;

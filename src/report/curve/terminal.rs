@@ -1,6 +1,7 @@
 //! The report of a curve as a summary that fits a screen.
 
 use super::model::{CurvePointReport, CurveReport};
+use super::range::RangeReport;
 use super::tables::{short_words, value_cell};
 use crate::verdicts::Outcome;
 use std::fmt::Write;
@@ -35,6 +36,7 @@ pub(super) fn terminal(report: &CurveReport) -> String {
     if let (Some(made), Some(back)) = (report.generation_degree, report.reproduction_degree) {
         let _ = writeln!(text, "polynomials are made up to degree {made} and reproduced up to degree {back}");
     }
+    text.push_str(&report.range.as_ref().map_or(String::new(), RangeReport::terminal));
     for point in &report.points {
         text.push_str(&at_point(point));
     }

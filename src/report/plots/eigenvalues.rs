@@ -41,7 +41,7 @@ pub(super) fn picture(analyses: &[Analysis]) -> Result<Picture, Obstacle> {
     let aside = if side_by_side { "; markers of one valence are set side by side" } else { "" };
     let caption = format!(
         "Moduli of the eigenvalues of the local subdivision matrix against the valence n, by frequency{aside}. \
-         The line joins λ, the largest of frequency 1."
+         The line joins λ, the largest after the 1 of the constants."
     );
     Ok(Picture { name: "eigenvalues", caption, svg })
 }
@@ -70,7 +70,7 @@ fn at(axes: &Axes, valence: usize, e: &Eigenvalue) -> At {
 }
 
 fn lambda_at(axes: &Axes, analysis: &Analysis) -> Option<At> {
-    analysis.spectrum.largest_of(1).map(|lambda| at(axes, analysis.valence, &lambda))
+    analysis.spectrum.subdominant().map(|lambda| at(axes, analysis.valence, &lambda))
 }
 
 /// The markers of a class of frequencies; where they would cover each other, one stands for all.
