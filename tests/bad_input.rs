@@ -504,7 +504,7 @@ fn wrong_arguments() {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("there.toml"), SOUND).unwrap();
     let many = (3..1100).map(|n| n.to_string()).collect::<Vec<_>>().join(",");
-    let cases: [(&[&str], &[&str]); 42] = [
+    let cases: [(&[&str], &[&str]); 49] = [
         (&["analyze", "loop", "-n", "0"], &["at least 3", "0"]),
         (&["analyze", "loop", "-n", "1"], &["at least 3"]),
         (&["analyze", "loop", "-n", "1000000000"], &["at most 100000"]),
@@ -529,12 +529,22 @@ fn wrong_arguments() {
         (&["analyze", "modified-butterfly", "--sweep", "w=0"], &["name=low..high"]),
         (&["analyze", "modified-butterfly", "--sweep", "w=0..1:19999"], &["too many", "fewer steps"]),
         (&["analyze", "modified-butterfly", "--range", "w=1..0"], &["does not run upwards"]),
+        (&["analyze", "four-point", "--range", "v=0..1"], &["no parameter `v`; it has w"]),
+        (&["analyze", "deslauriers-dubuc", "--range", "N=1..3"], &["whole numbers only"]),
+        (&["analyze", "four-point", "--valence", "3..5"], &["--valence is for surfaces"]),
+        (&["analyze", "loop", "--claim", "C2", "--range", "w=0..1"], &["--claim is for curves"]),
+        (&["analyze", "loop", "--claim", "C2"], &["--range"]),
+        (&["analyze", "loop", "--boundary", "3", "--boundary-rules", "none"], &["takes none"]),
+        (
+            &["analyze", "loop", "--boundary", "3", "--boundary-rules", "thirds"],
+            &["by the rules `thirds`", "edge.crease"],
+        ),
         (&["analyze", "modified-butterfly", "--range", "v=0..1"], &["no parameter `v`"]),
         (&["analyze", "loop", "--boundary", "0"], &["at least 1, not 0"]),
         (&["analyze", "loop", "--boundary", "150..201"], &["at most 200, not 201"]),
         (&["analyze", "loop", "--boundary", "3..1"], &["runs backwards", "1..3"]),
         (&["analyze", "modified-butterfly", "--boundary", "3"], &["names no boundary file", "boundary = [\"cubic\"]"]),
-        (&["analyze", "doo-sabin", "--boundary", "3"], &["names no boundary file"]),
+        (&["analyze", "doo-sabin", "--boundary", "3"], &["the boundary recedes", "dual"]),
         (&["analyze", "loop", "--format", "pdf"], &["pdf", "json"]),
         (&["analyze", "loop", "--out", "there.toml"], &["`there.toml`"]),
         (&["analyze", "loop", "--out", "there.toml/below"], &["there.toml/below"]),

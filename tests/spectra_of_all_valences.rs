@@ -3,13 +3,15 @@
 #![allow(clippy::unwrap_used)]
 
 use eigenring::analysis::Analyzer;
+use eigenring::analysis::exact::ExactAnalysis;
 use eigenring::analysis::spectra::Spectra;
 use eigenring::proof::outcome::{Outcome, Valences};
-use eigenring::proof::spectrum::order::misses;
+use eigenring::proof::spectrum::order::at_once;
 use eigenring::proof::spectrum::refutation::{against_c1, is_effective};
-use eigenring::proof::spectrum::{Order, Orders, prove};
+use eigenring::proof::spectrum::tail::TailProof;
 use eigenring::scheme::{Scheme, catalogue};
 use proptest::prelude::*;
+use std::cmp::Ordering;
 
 /// Proved for every n, as in the literature: Zorin (2000), Peters and Reif (1998), Zorin and Schroeder (2001).
 const C1: [&str; 7] = [
@@ -49,6 +51,88 @@ fn dual_with(first: &str, others: &str) -> Scheme {
     let own = [("\"(3 + 2*cos(2*pi*j/n))/(4*n)\"", format!("\"{ring}\"")), ("\"1/4\"", format!("\"{others}\""))];
     let changes: Vec<(&str, &str)> = own.iter().map(|(old, new)| (*old, new.as_str())).collect();
     with("doo-sabin", &changes)
+}
+
+/// How the order was proved.
+#[derive(Clone, Debug, PartialEq)]
+enum Order {
+    /// By the exact analysis of one valence.
+    Single,
+    /// At once.
+    AtOnce(Box<TailProof>),
+}
+
+/// What is known of the order at every n >= 3. Refuted is C1, for generic data, where the order excludes it.
+#[derive(Clone, Debug, PartialEq)]
+struct Orders {
+    /// Single valences first; then all from one on. The first entry that has a valence is about it.
+    parts: Vec<(Valences, Outcome<Order>)>,
+}
+
+impl Orders {
+    /// What is known at a valence.
+    fn at(&self, n: usize) -> Outcome<&Order> {
+        match self.parts.iter().find(|(valences, _)| valences.hold(n)) {
+            Some((_, Outcome::Proved(order))) => Outcome::Proved(order),
+            Some((_, Outcome::Refuted { witness })) => Outcome::Refuted { witness: witness.clone() },
+            Some((_, Outcome::Undecided { at })) => Outcome::stuck(at.clone()),
+            None => Outcome::stuck(format!("n = {n} is not looked at")),
+        }
+    }
+
+    /// Whether the order is proved for every n >= 3.
+    fn hold_everywhere(&self) -> bool {
+        self.parts.iter().all(|(_, outcome)| matches!(outcome, Outcome::Proved(_)))
+    }
+
+    /// The proof for all valences from one on, if there is one.
+    fn tail(&self) -> Option<&TailProof> {
+        self.parts.iter().find_map(|(_, outcome)| match outcome {
+            Outcome::Proved(Order::AtOnce(tail)) => Some(tail.as_ref()),
+            _ => None,
+        })
+    }
+}
+
+/// Decides what can be decided, by a second judgement beside that of the verdicts. Where nothing is known for all valences from one on, no single ones are looked at.
+fn prove(analyzer: &Analyzer) -> Orders {
+    let (from, except, at_once) = at_once(analyzer, is_effective(analyzer));
+    let single = if matches!(at_once, Outcome::Undecided { .. }) { 3..3 } else { 3..from };
+    let mut parts: Vec<_> = single.chain(except).map(|n| (Valences::At(n), at(analyzer, n))).collect();
+    parts.push((Valences::From(from), at_once.map(|tail| Order::AtOnce(Box::new(tail)))));
+    Orders { parts }
+}
+
+/// What the exact analysis of a valence says.
+fn at(analyzer: &Analyzer, n: usize) -> Outcome<Order> {
+    let exact = match analyzer.at(n).map(|analysis| analysis.exact) {
+        Ok(Ok(exact)) => exact,
+        Ok(Err(why)) => return Outcome::stuck(why),
+        Err(obstacle) => return Outcome::stuck(obstacle.to_string()),
+    };
+    match (against_c1(&exact, n, is_effective(analyzer)), misses(&exact)) {
+        (Some(witness), _) => Outcome::Refuted { witness },
+        (None, None) => Outcome::Proved(Order::Single),
+        (None, Some(why)) => Outcome::stuck(why),
+    }
+}
+
+/// What the order at a valence misses, if anything.
+fn misses(exact: &ExactAnalysis) -> Option<&'static str> {
+    let leads = |first: usize, mut others: Box<dyn Iterator<Item = usize> + '_>| {
+        others.all(|other| exact.compare_moduli(first, other) == Some(Ordering::Greater))
+    };
+    let Some(one) = exact.one.filter(|one| exact.eigenvalues[*one].algebraic == Some(1)) else {
+        return Some("1 is not seen to be simple");
+    };
+    if !leads(one, Box::new(exact.after_one().map(|(index, _)| index))) {
+        return Some("1 is not seen to be larger than all others");
+    }
+    let Some(lambda) = exact.lambda else {
+        return Some("no real, positive, simple eigenvalue of frequency 1 is seen to lead after 1");
+    };
+    let others = exact.after_one().map(|(index, _)| index).filter(|index| *index != lambda);
+    (!leads(lambda, Box::new(others))).then_some("lambda is not seen to be larger than all others after 1")
 }
 
 fn orders(scheme: &Scheme) -> Orders {
