@@ -1,28 +1,16 @@
 //! How fast is the analysis? Each figure beside a yardstick measured in the same run: `cargo bench`.
 #![allow(clippy::print_stdout)]
 
+mod shared;
+
 use eigenring::analysis::blocks::Blocks;
 use eigenring::analysis::cores::Cores;
 use eigenring::analysis::spectrum::Spectrum;
 use eigenring::analysis::{Analysis, Analyzer};
 use eigenring::report::{Study, csv, json, latex, markdown, png};
 use eigenring::scheme::{Scheme, catalogue};
+use shared::median;
 use std::hint::black_box;
-use std::time::Instant;
-
-/// The median time of several runs, in milliseconds.
-fn median(runs: usize, mut work: impl FnMut()) -> f64 {
-    work();
-    let mut times: Vec<f64> = (0..runs)
-        .map(|_| {
-            let start = Instant::now();
-            work();
-            start.elapsed().as_secs_f64() * 1e3
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[runs / 2]
-}
 
 fn row(what: &str, milliseconds: f64, yardstick: &str, other: f64) {
     println!("{what:<58} {milliseconds:>9.3} ms   {:>7.3} of {yardstick} ({other:.3} ms)", milliseconds / other);

@@ -1,14 +1,16 @@
 //! How fast is C1 decided for every valence? Each figure beside the exact analysis that it starts from: `cargo bench`.
 #![allow(clippy::print_stdout)]
 
+mod shared;
+
 use eigenring::analysis::Analyzer;
 use eigenring::proof::c1::Proofs;
 use eigenring::refine;
 use eigenring::report::certificate;
 use eigenring::scheme::catalogue;
 use eigenring::verdicts::EveryValence;
+use shared::median;
 use std::hint::black_box;
-use std::time::Instant;
 
 /// The schemes, and the number of runs that the median is taken of.
 const SCHEMES: [(&str, &str, usize); 13] = [
@@ -26,19 +28,6 @@ const SCHEMES: [(&str, &str, usize); 13] = [
     ("midpoint", "6", 1),
     ("midpoint", "9", 1),
 ];
-
-/// The median time of several runs, in milliseconds.
-fn median(runs: usize, mut work: impl FnMut()) -> f64 {
-    let mut times: Vec<f64> = (0..runs)
-        .map(|_| {
-            let start = Instant::now();
-            work();
-            start.elapsed().as_secs_f64() * 1e3
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[runs / 2]
-}
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("median of several runs; ratios hold within this run only\n");

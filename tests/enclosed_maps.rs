@@ -3,12 +3,12 @@
 
 use dashu_ratio::RBig;
 use eigenring::analysis::Analyzer;
-use eigenring::analysis::exact::Value;
-use eigenring::numbers::{Enclosure, Field, Interval};
+use eigenring::analysis::exact::{BITS, Value};
+use eigenring::numbers::{Angle, EnclosedWorld, Enclosure, Field, Interval, World};
 use eigenring::proof::course::range;
 use eigenring::proof::derivative::{DerivativeProof, prove};
 use eigenring::proof::enclosed_net::EnclosedNet;
-use eigenring::proof::family::{Family, may_be_lambda};
+use eigenring::proof::family::{CosineBox, Family};
 use eigenring::proof::net::Net;
 use eigenring::proof::outcome::{Outcome, Valences};
 use eigenring::proof::signed::Signed;
@@ -64,6 +64,16 @@ fn maps_of_midpoint_schemes_are_proved_at_single_valences() {
             assert!(matches!(outcome, Outcome::Proved(_)), "{degree} {n}: {outcome:?}");
         }
     }
+}
+
+/// Whether a real number may be the lambda of these boxes at a valence; false is certain.
+fn may_be_lambda(boxes: &[CosineBox], n: usize, value: &Value) -> bool {
+    let cosine = EnclosedWorld::<BITS>.cos(&Angle::fixed(RBig::ONE / RBig::from(n.max(1))));
+    let c = cosine.map_or(Interval::REALS, |c| Interval::enclosing(&c));
+    let own = boxes.iter().any(|part| part.only == Some(n)).then_some(n);
+    let meet = |a: Interval, b: Interval| a.lo() <= b.hi() && b.lo() <= a.hi();
+    let near = boxes.iter().filter(|part| part.only == own && meet(part.c, c));
+    near.into_iter().any(|part| meet(part.lambda, Interval::enclosing(value)))
 }
 
 /// Boxes have to leave no c out, and lambda has to be the analysis' own, told from all others.

@@ -23,7 +23,7 @@ pub mod spectrum;
 pub mod verify;
 
 use crate::mesh::{Lattice, Patch};
-use crate::refine::{Obstacle, PatchRows, Refinement, RegularStencils, lattice_of};
+use crate::refine::{Obstacle, PatchRows, Refinement, RegularStencils, check_symmetry, lattice_of};
 use crate::scheme::Scheme;
 use blocks::Blocks;
 use charmap::{CharacteristicMap, RegularMasks, Sample, Shape};
@@ -216,6 +216,10 @@ impl<'a> Analyzer<'a> {
     }
 
     fn find_forms(&self) -> Result<Result<AllValences, String>, Obstacle> {
+        if let Err(faults) = check_symmetry(self.scheme(), &[GENERIC]) {
+            let why = faults.faults.first().map_or(String::new(), |fault| fault.message.clone());
+            return Ok(Err(format!("{why}, at n = {GENERIC}")));
+        }
         // a weight that a parameter's value makes vanish is none where the parameter is free
         let odd = self.scheme().with_odd_values();
         let found = Spectra::new(&odd).and_then(|spectra| {

@@ -8,7 +8,7 @@
 //! > C = (r_0 + ... + r_(K-1))/(1 - n_K),
 //!
 //! where r_k and n_k are bounds of d^k |F P A_i B_w| and d^k |B_w| over all words w of k parts (for values without d^k). They are found on trees of words whose
-//! branches end where the norm is small ([`Tree`]; docs/theory.md).
+//! branches end where the norm is small (docs/theory.md).
 
 use super::cells::{BASE, Local, Part, Row};
 use crate::analysis::regular::mask::Point;

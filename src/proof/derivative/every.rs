@@ -23,7 +23,7 @@ fn most_cells(radius: f64) -> usize {
 /// The most cells on all boxes.
 const MOST_CELLS: usize = 30_000;
 
-/// The largest valence that is looked at by itself where a box shows a fold.
+/// The largest valence that is looked at by itself where a box shows a fold, if all from a smaller one on are asked for.
 const MOST_LOOKED_AT: f64 = 32.0;
 
 impl Engine {
@@ -70,7 +70,7 @@ impl Engine {
             }
             Err((c, why)) => {
                 // a fold on a box refutes nothing until it is seen at one valence
-                let seen = valence_near(c).map(|n| self.analysed(analyzer, n)).transpose()?;
+                let seen = valence_near(c).map(|n| self.analysed(analyzer, n.max(first))).transpose()?;
                 let refuted = seen.filter(|seen| matches!(seen, Outcome::Refuted { .. }));
                 Ok(refuted.unwrap_or(Outcome::stuck(format!("{why}, for c from {} to {}", c.lo(), c.hi()))))
             }
@@ -87,7 +87,7 @@ impl DerivativeProof {
     }
 }
 
-/// A valence whose c is near the low end of an interval, or the largest that is looked at: a guess, which is then looked
+/// A valence whose c is near the low end of an interval, or a smaller one that is looked at faster: a guess, which is then looked
 /// at by itself.
 fn valence_near(c: Interval) -> Option<usize> {
     let n = std::f64::consts::TAU / libm::acos(c.lo());

@@ -1,7 +1,7 @@
 //! Is the Jacobian positive on every cell of the ring, and does the ring keep to its half plane?
 //!
 //! Data of a cell are intervals. Derivatives of the limit lie within C |y| of those of a polynomial, which are between those at the corners, y being the deviation from
-//! that; so do values, with bounds of their own ([`super::deviation`]). Where that doesn't tell the sign of the determinant, the cell is cut into its parts
+//! that; so do values, with bounds of their own ([`mod@super::deviation`]). Where that doesn't tell the sign of the determinant, the cell is cut into its parts
 //! by the regular rules, and deviations shrink faster than differences.
 //!
 //! A value that depends on t is a polynomial in t whose coefficients are intervals. As rules are linear and have no t in them, each coefficient is

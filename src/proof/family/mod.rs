@@ -7,7 +7,6 @@ pub mod root;
 pub mod taylor;
 
 use crate::analysis::Analyzer;
-use crate::analysis::exact::BITS;
 use crate::analysis::exact::Value;
 use crate::analysis::exact::block::{Block, Wave};
 use crate::analysis::exact::formulas::{AllValences, GENERIC, at};
@@ -15,9 +14,7 @@ use crate::analysis::neighbourhood::Orbit;
 use crate::mesh::{Label, Patch};
 use crate::numbers::linear::{Matrix, part, shifted};
 use crate::numbers::roots::roots;
-use crate::numbers::{
-    Angle, C, EnclosedWorld, Field, Free, FreeWorld, Interval, N, PerFrequency, Trouble, Univariate, World,
-};
+use crate::numbers::{C, Field, Free, FreeWorld, Interval, N, PerFrequency, Trouble, Univariate};
 use crate::proof::enclosed_net::EnclosedNet;
 use crate::proof::kernel::null_vector;
 use crate::proof::net::placed;
@@ -222,16 +219,6 @@ impl<'s> Family<'s> {
             false => Err(Open::yet("the net doesn't satisfy S f = lambda f")),
         }
     }
-}
-
-/// Whether a real number may be the lambda of these boxes at a valence; false is certain.
-pub fn may_be_lambda(boxes: &[CosineBox], n: usize, value: &Value) -> bool {
-    let cosine = EnclosedWorld::<BITS>.cos(&Angle::fixed(RBig::ONE / RBig::from(n.max(1))));
-    let c = cosine.map_or(Interval::REALS, |c| Interval::enclosing(&c));
-    let own = boxes.iter().any(|part| part.only == Some(n)).then_some(n);
-    let meet = |a: Interval, b: Interval| a.lo() <= b.hi() && b.lo() <= a.hi();
-    let near = boxes.iter().filter(|part| part.only == own && meet(part.c, c));
-    near.into_iter().any(|part| meet(part.lambda, Interval::enclosing(value)))
 }
 
 fn in_cosine_alone(value: &Free) -> bool {
