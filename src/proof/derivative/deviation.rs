@@ -47,17 +47,17 @@ type Covector = Vec<Interval>;
 /// The rows of B_i, without what is 0.
 type Sparse = Vec<Vec<(usize, Interval)>>;
 
-/// A branch ends where d^k times the norm is at most this.
-const SMALL: f64 = 0.5;
+/// A branch ends where d^k times the norm is at most this: at the first where trees have room for it, else at the second.
+const SMALL: [f64; 2] = [0.5, 0.85];
 
 /// The most products of numbers for a tree.
-const MOST_PRODUCTS: usize = 100_000_000;
+const MOST_PRODUCTS: usize = 60_000_000;
 
 /// The most K.
 const MOST_STEPS: usize = 64;
 
 /// How many units are tried.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 4;
 
 /// The bound for slopes by polynomials of the largest degree, 2 or 1, that rules keep, for values by affine functions; or why there is none.
 ///
@@ -303,7 +303,7 @@ struct Contraction {
     growth: f64,
 }
 
-/// Norms of c B_w, times the growth in k steps, for some covectors c and words w of k parts: branches are followed until the norm is at most [`SMALL`].
+/// Norms of c B_w, times the growth in k steps, for some covectors c and words w of k parts: branches are followed until the norm is small.
 struct Tree {
     /// The largest norm after k steps, on branches that have got so far.
     reached: Vec<f64>,
@@ -341,9 +341,14 @@ impl Contraction {
 
     /// C and K, from how functions change in a step.
     fn bound(&self, changes: &[Covector], units: &[f64]) -> Option<(f64, usize)> {
+        SMALL.into_iter().find_map(|small| self.bound_by(changes, units, small))
+    }
+
+    /// The same by trees whose branches end at a norm.
+    fn bound_by(&self, changes: &[Covector], units: &[f64], small: f64) -> Option<(f64, usize)> {
         let size = units.len();
         let one = |at: usize| (0..size).map(|own| Interval::point(if own == at { 1.0 } else { 0.0 })).collect();
-        let own = self.tree((0..size).map(one).collect())?;
+        let own = self.tree((0..size).map(one).collect(), small)?;
         // n_k needs those before it
         let mut whole = vec![1.0];
         while whole.len() <= MOST_STEPS {
@@ -352,7 +357,7 @@ impl Contraction {
         let growth = Interval::point(self.growth);
         let scaled =
             |own: &Covector| own.iter().zip(units).map(|(x, unit)| growth * *x * Interval::point(*unit)).collect();
-        let changes = self.tree(changes.iter().map(scaled).collect())?.bounds(&whole);
+        let changes = self.tree(changes.iter().map(scaled).collect(), small)?.bounds(&whole);
         let mut sum = Interval::ZERO;
         let mut best: Option<(f64, usize)> = None;
         for steps in 1..=MOST_STEPS {
@@ -366,7 +371,7 @@ impl Contraction {
     }
 
     /// The tree from some covectors; `None` where it is too large.
-    fn tree(&self, mut alive: Vec<Covector>) -> Option<Tree> {
+    fn tree(&self, mut alive: Vec<Covector>, small: f64) -> Option<Tree> {
         let products: usize = self.steps.iter().flatten().map(Vec::len).sum();
         let norm = |own: &Covector| own.iter().fold(Interval::ZERO, |sum, x| sum + Interval::point(x.magnitude())).hi();
         let mut tree = Tree { reached: vec![alive.iter().map(norm).fold(0.0, f64::max)], ended: vec![0.0] };
@@ -377,7 +382,7 @@ impl Contraction {
             for new in alive.iter().flat_map(|own| self.steps.iter().map(|step| self.times(own, step))) {
                 let norm = norm(&new);
                 reached = reached.max(norm);
-                if norm <= SMALL {
+                if norm <= small {
                     ended = ended.max(norm);
                 } else {
                     going.push(new);

@@ -97,7 +97,7 @@ pub struct Engine {
 }
 
 /// The limits of refinement, and of the number of cells, at one valence.
-const AT_ONE: (usize, usize) = (9, 60_000);
+const AT_ONE: (usize, usize) = (12, 300_000);
 
 const NO_RING: &str = "rules at the extraordinary point reach into the ring";
 const NO_NET: &str = "the net doesn't satisfy S f = lambda f";
