@@ -366,6 +366,41 @@ mod tests {
         }
     }
 
+    /// Turned half-discs, with as many faces more as the boundary bisects.
+    fn turned_fans() -> impl Iterator<Item = Fan> {
+        let splits = [(Lattice::Triangles, Split::Sqrt3), (Lattice::Quads, Split::Sqrt2)];
+        splits.into_iter().flat_map(|(lattice, split)| {
+            let placement = Placement::of(split, lattice, true).unwrap();
+            let open = KINDS.into_iter().filter(|kind| !kind.is_closed());
+            open.map(move |kind| Fan::new(lattice, kind).before(&placement))
+        })
+    }
+
+    /// Faces at the boundary are triangles, others those of the lattice; the centre has one more than the fan that isn't turned.
+    #[test]
+    fn walking_keeps_the_laws_of_half_edges_on_turned_fans() {
+        for fan in turned_fans() {
+            let (mut bisected, mut inside) = (0, 0);
+            for edge in edges(&fan, 3) {
+                let here = format!("{fan:?} {edge:?}");
+                assert_eq!(fan.twin(fan.twin(edge)), edge, "{here}");
+                assert_eq!(fan.turn_back(fan.turn(edge)), edge, "{here}");
+                assert_eq!(fan.prev(fan.next(edge)), edge, "{here}");
+                assert!(fan.has_face(edge) || fan.has_face(fan.twin(edge)), "{here}");
+                if fan.has_face(edge) {
+                    let face = fan.around_face(edge);
+                    let at_boundary = face.iter().any(|edge| !fan.has_face(fan.twin(*edge)));
+                    assert_eq!(face.len(), if at_boundary { 3 } else { fan.lattice().face_corners() }, "{here}");
+                    (bisected, inside) = (bisected + usize::from(at_boundary), inside + usize::from(!at_boundary));
+                }
+            }
+            assert!(bisected > 0 && (inside > 0 || fan.sectors() == 1), "{fan:?}");
+            let around = fan.around_vertex(fan.spoke(0));
+            assert_eq!(around.iter().filter(|edge| fan.has_face(**edge)).count() as u32, fan.sectors() + 1);
+            assert_eq!(fan.sharp_spokes(fan.spoke(0)).len(), 2, "{fan:?}");
+        }
+    }
+
     #[test]
     fn the_centre_has_its_faces_and_other_points_are_regular() {
         for fan in fans() {
