@@ -348,16 +348,21 @@ mod tests {
         found
     }
 
+    fn keeps_the_laws(fan: &Fan, edge: PatchEdge) {
+        let here = format!("{fan:?} {edge:?}");
+        assert_eq!(fan.twin(fan.twin(edge)), edge, "{here}");
+        assert_eq!(fan.turn_back(fan.turn(edge)), edge, "{here}");
+        assert_eq!(fan.prev(fan.next(edge)), edge, "{here}");
+        assert!(fan.has_face(edge) || fan.has_face(fan.twin(edge)), "{here}");
+    }
+
     #[test]
     fn walking_keeps_the_laws_of_half_edges() {
         for fan in fans() {
             let corners = if fan.lattice() == Lattice::Triangles { 3 } else { 4 };
             for edge in edges(&fan, 3) {
                 let here = format!("{fan:?} {edge:?}");
-                assert_eq!(fan.twin(fan.twin(edge)), edge, "{here}");
-                assert_eq!(fan.turn_back(fan.turn(edge)), edge, "{here}");
-                assert_eq!(fan.prev(fan.next(edge)), edge, "{here}");
-                assert!(fan.has_face(edge) || fan.has_face(fan.twin(edge)), "{here}");
+                keeps_the_laws(&fan, edge);
                 assert_eq!(fan.is_sharp(edge), fan.is_sharp(fan.twin(edge)), "{here}");
                 if fan.has_face(edge) {
                     assert_eq!(fan.around_face(edge).len(), corners, "{here}");
@@ -383,10 +388,7 @@ mod tests {
             let (mut bisected, mut inside) = (0, 0);
             for edge in edges(&fan, 3) {
                 let here = format!("{fan:?} {edge:?}");
-                assert_eq!(fan.twin(fan.twin(edge)), edge, "{here}");
-                assert_eq!(fan.turn_back(fan.turn(edge)), edge, "{here}");
-                assert_eq!(fan.prev(fan.next(edge)), edge, "{here}");
-                assert!(fan.has_face(edge) || fan.has_face(fan.twin(edge)), "{here}");
+                keeps_the_laws(&fan, edge);
                 if fan.has_face(edge) {
                     let face = fan.around_face(edge);
                     let at_boundary = face.iter().any(|edge| !fan.has_face(fan.twin(*edge)));

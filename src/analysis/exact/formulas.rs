@@ -83,7 +83,8 @@ pub struct AllValences {
     pub frequencies: Vec<FrequencyForms>,
     /// The limit mask.
     pub limit_mask: Option<Mask<Free>>,
-    /// The factor of the subdominant eigenvalue, in the forms of frequency 1, when it is the same at all samples.
+    /// The factor of the subdominant eigenvalue, in the forms of frequency 1, when one alone is among the largest at all samples; seen in floating numbers, and
+    /// proved by [`crate::proof::spectrum::tail`] only.
     pub subdominant: Option<Univariate<Free>>,
     /// The tangent masks, in terms of the subdominant eigenvalue.
     pub tangent_mask: Option<Mask<Extension<Free>>>,

@@ -162,7 +162,7 @@ impl Polynomials {
         polynomial && local.tiling.corners().iter().all(same)
     }
 
-    /// The squares and the product that are told by no point but the others, in units: what data on small cells are like.
+    /// The deviations of the monomials of the next degree at the points that polynomials are not told by: what data on small cells are like.
     fn next(&self, local: &Local) -> Vec<Vec<f64>> {
         let others = &local.points[self.count()..];
         let powers: &[[u32; 2]] =

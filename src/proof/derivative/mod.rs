@@ -1,4 +1,4 @@
-//! Is the characteristic map regular and injective where limits are no polynomials?
+//! Is the characteristic map regular and injective, whatever its limits are?
 //!
 //! For any scheme whose regular rules keep affine functions: a cell's data less a polynomial contract faster than cells shrink,
 //! so that derivatives of limits over a cell are enclosed by that polynomial's ([`mod@deviation`]); cells are refined
